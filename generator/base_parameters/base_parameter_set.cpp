@@ -1,0 +1,141 @@
+#include "base_parameters/base_parameter_set.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "base_parameters/column_selection.hpp"
+#include "base_parameters/regrouping.hpp"
+#include "base_parameters/sample_point.hpp"
+#include "base_parameters/standard_regressor.hpp"
+
+namespace idim::generator {
+
+namespace {
+
+/// A column whose part outside the span of the ones before it is below this share of its norm is dependent: rounding leaves 1e-14, real
+/// robots' pivots stay above 1e-5 at states of order one.
+constexpr double qr_tolerance = 1e-9;
+
+int rank_of_preference(const kinematic_joint& joint, parameter_kind kind) {
+    if (kind == parameter_kind::effect) {
+        return 1;
+    }
+    if (joint.type == joint_type::fixed) {
+        return 3;
+    }
+    const bool is_inertia = kind <= parameter_kind::ZZ;
+    if (joint.type == joint_type::prismatic) {
+        return is_inertia ? 2 : 0;
+    }
+    return kind == parameter_kind::YY || kind == parameter_kind::MZ || kind == parameter_kind::M ? 2 : 0;
+}
+
+std::vector<std::size_t> preference_order(const kinematic_tree& tree, const standard_parameters& parameters) {
+    std::vector<std::size_t> order(parameters.all.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto key = [&](std::size_t p) {
+        const standard_parameter& parameter = parameters.all[p];
+        const int rank = rank_of_preference(tree.joints[static_cast<std::size_t>(parameter.joint)], parameter.kind);
+        return std::pair{rank, rank == 0 ? -parameter.joint : parameter.joint};
+    };
+    std::stable_sort(order.begin(), order.end(), [&key](std::size_t a, std::size_t b) { return key(a) < key(b); });
+    return order;
+}
+
+/// W_st at random states of order one, rows at least twice the columns.
+Eigen::MatrixXd sample_regressor(const standard_regressor& W, const kinematic_tree& tree) {
+    const int samples = 2 * (W.columns / W.dof + 1);
+    Eigen::MatrixXd sampled = Eigen::MatrixXd::Zero(samples * W.dof, W.columns);
+    std::mt19937_64 random(1);
+    const auto uniform = [&random] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1.0; };
+    double_arithmetic arithmetic;
+    for (int s = 0; s < samples; ++s) {
+        std::vector<double> values;
+        for (const graph_symbol& symbol : W.graph.symbols()) {
+            const double drawn = symbol.role == symbol_role::position ? 3.0 * uniform() : 2.0 * uniform();
+            values.push_back(symbol.role == symbol_role::constant
+                                 ? tree.constants[static_cast<std::size_t>(symbol.index)].value.to_double()
+                                 : drawn);
+        }
+        const std::vector<double> entries = evaluate(W.graph, values, arithmetic);
+        for (std::size_t k = 0; k < entries.size(); ++k) {
+            sampled(s * W.dof + W.row_of_output[k], W.column_of_output[k]) = entries[k];
+        }
+    }
+    return sampled;
+}
+
+void compare(const column_selection& by_qr, const exact_selection& exact) {
+    if (by_qr.kept != exact.kept) {
+        throw rank_disagreement(
+            fmt::format("base parameters: rank {} by QR (smallest kept pivot {:.1e}, largest dropped {:.1e}) but {} in exact "
+                        "arithmetic; the geometry is close to a special case, give its constants exactly",
+                        by_qr.kept.size(), by_qr.smallest_kept, by_qr.largest_dropped, exact.kept.size()));
+    }
+}
+
+std::string formula(const kinematic_tree& tree, const standard_parameters& parameters, const base_parameter& base) {
+    std::string text = parameters.all[base.standard].name;
+    for (const regrouped_term& term : base.regrouped) {
+        std::string coefficient = term.coefficient.text(tree);
+        const bool is_sum = coefficient.find(' ') != std::string::npos;
+        const bool negative = !is_sum && coefficient.front() == '-';
+        coefficient = is_sum ? "(" + coefficient + ")" : coefficient.substr(negative ? 1 : 0);
+        text += negative ? " - " : " + ";
+        text += (coefficient == "1" ? "" : coefficient + "*") + parameters.all[term.standard].name;
+    }
+    return text;
+}
+
+}  // namespace
+
+parameter_selection base_parameter_set::selection() const {
+    parameter_selection chosen;
+    for (const base_parameter& parameter : parameters) {
+        chosen.kept.push_back(parameter.standard);
+        chosen.names.push_back(parameter.name);
+    }
+    return chosen;
+}
+
+base_parameter_set find_base_parameters(const kinematic_tree& tree, const standard_parameters& parameters) {
+    const standard_regressor W = build_standard_regressor(tree, parameters);
+    const std::vector<std::size_t> preference = preference_order(tree, parameters);
+    const column_selection by_qr = select_by_qr(sample_regressor(W, tree), preference, qr_tolerance);
+    regrouping groups(W, tree, preference);
+    compare(by_qr, groups.selection());
+    const std::vector<regrouped_column> columns = groups.columns();
+    groups.prove(columns);
+
+    base_parameter_set result;
+    result.standard = W.columns;
+    result.evidence = {static_cast<int>(by_qr.kept.size()), by_qr.smallest_kept, by_qr.largest_dropped,
+                       static_cast<int>(groups.selection().kept.size()), groups.points()};
+    std::vector<std::size_t> kept = by_qr.kept;
+    std::sort(kept.begin(), kept.end());
+    for (const std::size_t p : kept) {
+        const standard_parameter& parameter = parameters.all[p];
+        base_parameter base{p, parameter.name, parameter.unit, parameter.min, {}, {}};
+        for (const regrouped_column& column : columns) {
+            if (column.kept == p) {
+                base.regrouped.push_back({column.dropped, column.coefficient, column.value});
+            }
+        }
+        std::sort(base.regrouped.begin(), base.regrouped.end(),
+                  [](const regrouped_term& a, const regrouped_term& b) { return a.standard < b.standard; });
+        base.name += base.regrouped.empty() ? "" : "R";
+        base.formula = formula(tree, parameters, base);
+        result.parameters.push_back(base);
+    }
+    for (std::size_t p = 0; p < parameters.all.size(); ++p) {
+        const auto in = [p](const std::vector<std::size_t>& list) { return std::find(list.begin(), list.end(), p) != list.end(); };
+        if (!in(by_qr.kept) && !in(by_qr.dropped)) {
+            result.without_effect.push_back(p);
+        }
+    }
+    return result;
+}
+
+}  // namespace idim::generator

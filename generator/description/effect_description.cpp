@@ -1,0 +1,150 @@
+#include "description/effect_description.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+
+#include "description/identifier.hpp"
+#include "description/yaml_reader.hpp"
+
+namespace idim::generator {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+effect_scope read_scope(const yaml_value& written) {
+    const std::string text = written.text("joint, pair or robot");
+    if (text == "joint") {
+        return effect_scope::joint;
+    }
+    if (text == "pair") {
+        return effect_scope::pair;
+    }
+    if (text != "robot") {
+        written.reject("joint, pair or robot");
+    }
+    return effect_scope::robot;
+}
+
+bool read_acts_on_both(const yaml_value& written, effect_scope scope) {
+    const std::string text = written.text("one or both");
+    if (scope != effect_scope::pair || (text != "one" && text != "both")) {
+        written.reject("one or both, and only where per is pair");
+    }
+    return text == "both";
+}
+
+/// Units stand in comments of generated code, so nothing that ends or starts one passes.
+std::string read_unit(const yaml_fields& fields) {
+    constexpr const char* expected = "a unit such as N*m, or 1";
+    constexpr std::size_t longest_unit = 40;
+    const yaml_value written = fields.require("unit", expected);
+    const std::string unit = written.text(expected);
+    const bool plain = std::all_of(unit.begin(), unit.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+               std::string_view("*/^()-. %").find(c) != std::string_view::npos;
+    });
+    const auto holds = [&](const char* mark) { return unit.find(mark) != std::string::npos; };
+    if (!plain || unit.size() > longest_unit || holds("*/") || holds("/*") || holds("//")) {
+        written.reject(expected);
+    }
+    return unit;
+}
+
+std::vector<linear_coefficient> read_linear(const yaml_fields& effect) {
+    std::vector<linear_coefficient> result;
+    if (const auto written = effect.find("linear")) {
+        for (const auto& [name, value] : written->entries("a map of coefficients to {unit, min}")) {
+            linear_coefficient coefficient;
+            coefficient.name = checked_symbol(name, value.where());
+            const yaml_fields fields(value, {"unit", "min"});
+            coefficient.unit = read_unit(fields);
+            if (const auto min = fields.find("min")) {
+                coefficient.min = min->number();
+            }
+            result.push_back(coefficient);
+        }
+    }
+    return result;
+}
+
+std::pair<double, double> read_range(const yaml_value& written) {
+    const auto bounds = written.items("a list [lowest, highest]");
+    if (bounds.size() != 2) {
+        throw input_error(written.where(),
+                          "expected a list [lowest, highest], got " + std::to_string(bounds.size()) + " entries");
+    }
+    const std::pair<double, double> range{bounds[0].number(), bounds[1].number()};
+    if (range.first >= range.second) {
+        throw input_error(written.where(), "expected [lowest, highest] with the lowest first");
+    }
+    return range;
+}
+
+std::vector<shape_coefficient> read_shape(const yaml_fields& effect, const std::vector<linear_coefficient>& linear) {
+    std::vector<shape_coefficient> result;
+    if (const auto written = effect.find("shape")) {
+        for (const auto& [name, value] : written->entries("a map of coefficients to {unit, range}")) {
+            shape_coefficient coefficient;
+            coefficient.name = checked_symbol(name, value.where());
+            for (const linear_coefficient& other : linear) {
+                if (other.name == name) {
+                    throw input_error(value.where(), quote(name) + " is already a linear coefficient");
+                }
+            }
+            const yaml_fields fields(value, {"unit", "range"});
+            coefficient.unit = read_unit(fields);
+            coefficient.range = read_range(fields.require("range", "a list [lowest, highest]"));
+            result.push_back(coefficient);
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+effect_description read_effect(const std::string& file) {
+    const yaml_fields fields(read_yaml(file), {"effect", "per", "acts_on", "torque", "linear", "shape", "about"});
+    effect_description effect;
+    effect.file = file;
+    const yaml_value name = fields.require("effect", "the name of the effect");
+    effect.name = checked_name(name.text("the name of the effect"), name.where());
+    if (const std::string stem = fs::path(file).stem().string(); effect.name != stem) {
+        name.reject(quote(stem) + ", the name of the file");
+    }
+    effect.scope = read_scope(fields.require("per", "joint, pair or robot"));
+    if (const auto acts_on = fields.find("acts_on")) {
+        effect.acts_on_both = read_acts_on_both(*acts_on, effect.scope);
+    }
+    const yaml_value torque = fields.require("torque", "an expression of the signals and coefficients");
+    effect.torque = {torque.expression(), torque.where()};
+    effect.linear = read_linear(fields);
+    effect.shape = read_shape(fields, effect.linear);
+    if (effect.linear.empty() && effect.shape.empty()) {
+        throw input_error({file, fields.where().line, "linear"}, "missing, expected at least one coefficient");
+    }
+    if (const auto about = fields.find("about")) {
+        effect.about = about->paragraph("a sentence");
+    }
+    return effect;
+}
+
+effect_description find_effect(const effect_use& use, const robot_description& robot,
+                               const std::string& effects_folder) {
+    const fs::path beside = fs::path(robot.file).parent_path();
+    std::string searched;
+    for (const fs::path& folder :
+         {beside.empty() ? fs::path(".") : beside, beside / "effects", fs::path(effects_folder)}) {
+        const fs::path candidate = folder / (use.effect + ".yaml");
+        std::error_code ignored;
+        if (fs::exists(candidate, ignored)) {
+            return read_effect(candidate.string());
+        }
+        searched += (searched.empty() ? "" : ", ") + folder.string();
+    }
+    throw input_error(use.where, "no effect " + quote(use.effect) + ", searched " + searched);
+}
+
+}  // namespace idim::generator

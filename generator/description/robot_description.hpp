@@ -1,0 +1,81 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "idim/input_error.hpp"
+
+namespace idim::generator {
+
+/// Text of an entry that may be an expression ("q + pi/2", "-l3x"), with the place it was read from.
+struct expression_text {
+    std::string text = "0";
+    input_location where;
+};
+
+enum class joint_type { revolute, prismatic, fixed };
+
+struct joint_limits {
+    std::optional<std::pair<double, double>> position;  ///< [rad or m]
+    std::optional<double> velocity;                     ///< [rad/s or m/s]
+    std::optional<double> effort;                       ///< [N*m or N]
+};
+
+/// One modified Denavit-Hartenberg row (METHODS.md, "Model"): the frame of this joint's link in that of its antecedent is
+/// Rot(z,gamma) Trans(z,b) Rot(x,alpha) Trans(x,d) Rot(z,theta) Trans(z,r). Angles in radians, lengths in metres.
+struct joint_description {
+    std::string name;
+    joint_type type = joint_type::revolute;
+    int antecedent = -1;  ///< index in robot_description::joints, always smaller than the joint's own; -1 is the base
+    expression_text gamma, b, alpha, d, theta, r;
+    joint_limits limits;
+    std::optional<double> drive_gain;  ///< [N*m or N] per unit of v
+    input_location where;
+};
+
+/// A named length or angle; the value may be an expression of constants declared before it.
+struct constant_description {
+    std::string name;
+    expression_text value;
+};
+
+/// An effect as a robot uses it.
+struct effect_use {
+    std::string effect;
+    std::vector<int> joints;  ///< indices of the joints it acts on
+    std::vector<int> from;    ///< for pair effects: index of the other joint, one for each entry of `joints`
+    std::map<std::string, double> shape;
+    input_location where;
+};
+
+/// How the robot is controlled; read and checked where a simulation needs it.
+struct control_description {
+    std::string law;
+    double rate = 0.0;                                  ///< [Hz]
+    std::map<std::string, std::vector<double>> values;  ///< wn, zeta, kp, kv, saturation ...: one number per driven joint
+    double delay = 0.0;                                 ///< [s]
+    input_location where;
+};
+
+/// What the user wrote, checked for form but not for meaning: the only stage that knows the file format (FORMATS.md).
+struct robot_description {
+    std::string file;
+    std::string name;
+    std::vector<expression_text> gravity;  ///< three entries [m/s^2], base frame
+    std::vector<constant_description> constants;
+    std::vector<joint_description> joints;
+    std::vector<effect_use> effects;
+    std::optional<control_description> control;
+    std::map<std::string, double> parameters;  ///< a-priori standard parameters
+};
+
+/// Reads robots/<name>/<name>.yaml. Throws input_error, one line naming file, line, field and what was expected.
+robot_description read_robot(const std::string& file);
+
+/// Readable YAML-like listing of a description, for tests and messages.
+std::string to_string(const robot_description& robot);
+
+}  // namespace idim::generator

@@ -1,0 +1,184 @@
+#include <cln/rational.h>
+#include <cln/real.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+#include "dynamics/symbolic_model.hpp"
+
+namespace idim::generator {
+
+namespace {
+
+using GiNaC::ex;
+
+/// A sub-expression with the text it is sorted by. The text is built from declared symbol indices and sorted operands, so it is
+/// the same whatever order GiNaC holds the operands in.
+struct keyed {
+    std::string key;
+    ex value;
+};
+
+bool by_key(const keyed& a, const keyed& b) { return a.key < b.key; }
+
+rational to_rational(const ex& number) {
+    const auto value = GiNaC::ex_to<GiNaC::numeric>(number);
+    if (!value.is_rational()) {
+        throw std::logic_error("a number in a model is not rational");
+    }
+    return cln::the<cln::cl_RA>(value.to_cl_N());
+}
+
+function_kind kind_of(const ex& function) {
+    static const std::map<std::string, function_kind> kinds = {
+        {"sin", function_kind::sin},   {"cos", function_kind::cos}, {"tan", function_kind::tan},
+        {"exp", function_kind::exp},   {"log", function_kind::log}, {"abs", function_kind::abs},
+        {"sign", function_kind::sign}, {"tanh", function_kind::tanh}, {"atan", function_kind::atan},
+    };
+    return kinds.at(GiNaC::ex_to<GiNaC::function>(function).get_name());
+}
+
+class graph_builder {
+  public:
+    graph_builder(const symbolic_model& model, constants_as constants) {
+        for (const symbolic_leaf& leaf : model.leaves()) {
+            const bool fold = leaf.value && constants == constants_as::values;
+            add_symbol(leaf.symbol, fold ? graph_.constant(*leaf.value) : graph_.symbol(leaf.declared));
+        }
+        for (const assignment& step : model.assignments()) {
+            const signed_node value = build(step.body);
+            graph_.name(value, step.symbol.get_name());
+            add_symbol(step.symbol, value);
+        }
+        for (const symbolic_output& out : model.outputs()) {
+            graph_.output(out.array, out.index, build(out.value.expand()));
+        }
+    }
+
+    expression_graph take() { return std::move(graph_); }
+
+  private:
+    void add_symbol(const GiNaC::symbol& symbol, signed_node value) {
+        const int index = static_cast<int>(symbols_.size());
+        symbols_[symbol] = {index, value};
+    }
+
+    std::string key(const ex& e) const {
+        if (GiNaC::is_a<GiNaC::symbol>(e)) {
+            return fmt::format("{:06}", symbols_.at(e).first);
+        }
+        if (GiNaC::is_a<GiNaC::numeric>(e)) {
+            return "~" + to_fraction(to_rational(e));
+        }
+        if (GiNaC::is_a<GiNaC::power>(e)) {
+            return key(e.op(0)) + "^" + key(e.op(1));
+        }
+        std::string text = GiNaC::is_a<GiNaC::add>(e)        ? "a"
+                           : GiNaC::is_a<GiNaC::mul>(e)      ? ""
+                           : GiNaC::is_a<GiNaC::function>(e) ? "f" + std::string(to_string(kind_of(e)))
+                                                             : throw std::logic_error("unexpected expression in a model");
+        for (const keyed& operand : sorted(e)) {
+            text += operand.key + (GiNaC::is_a<GiNaC::mul>(e) ? "*" : ",");
+        }
+        return GiNaC::is_a<GiNaC::mul>(e) ? text : text + ")";
+    }
+
+    std::vector<keyed> sorted(const ex& e) const {
+        std::vector<keyed> operands;
+        for (const ex& operand : e) {
+            operands.push_back({key(operand), operand});
+        }
+        std::stable_sort(operands.begin(), operands.end(), by_key);
+        return operands;
+    }
+
+    signed_node build(const ex& e) {
+        if (GiNaC::is_a<GiNaC::symbol>(e)) {
+            return symbols_.at(e).second;
+        }
+        if (GiNaC::is_a<GiNaC::numeric>(e)) {
+            return graph_.constant(to_rational(e));
+        }
+        if (GiNaC::is_a<GiNaC::power>(e)) {
+            return build_power(e.op(0), e.op(1));
+        }
+        if (GiNaC::is_a<GiNaC::function>(e)) {
+            const signed_node argument = build(e.op(0).expand());
+            return graph_.function(kind_of(e), argument);
+        }
+        return GiNaC::is_a<GiNaC::add>(e) ? build_sum(e) : build_product(e);
+    }
+
+    signed_node build_sum(const ex& e) {
+        signed_node sum = graph_.constant(0);
+        for (const keyed& operand : sorted(e)) {
+            const signed_node term = build(operand.value);
+            sum = graph_.add(sum, term);
+        }
+        return sum;
+    }
+
+    signed_node build_product(const ex& e) {
+        signed_node product = graph_.constant(1);
+        signed_node divisor = graph_.constant(1);
+        for (const keyed& operand : sorted(e)) {
+            if (is_reciprocal(operand.value)) {
+                const signed_node factor = build_power(operand.value.op(0), -operand.value.op(1));
+                divisor = graph_.multiply(divisor, factor);
+            } else {
+                const signed_node factor = build(operand.value);
+                product = graph_.multiply(product, factor);
+            }
+        }
+        return graph_.divide(product, divisor);
+    }
+
+    static bool is_reciprocal(const ex& e) {
+        return GiNaC::is_a<GiNaC::power>(e) && GiNaC::is_a<GiNaC::numeric>(e.op(1)) &&
+               GiNaC::ex_to<GiNaC::numeric>(e.op(1)).is_negative();
+    }
+
+    signed_node build_power(const ex& base, const ex& exponent) {
+        if (GiNaC::is_a<GiNaC::numeric>(exponent) && GiNaC::ex_to<GiNaC::numeric>(exponent).is_integer()) {
+            return integer_power(base, GiNaC::ex_to<GiNaC::numeric>(exponent).to_int());
+        }
+        const signed_node b = build(base.expand());
+        if (exponent.is_equal(GiNaC::numeric(1, 2))) {
+            return graph_.function(function_kind::sqrt, b);
+        }
+        const signed_node x = build(exponent.expand());
+        return graph_.function_pow(b, x);
+    }
+
+    /// GiNaC scales a sum under a power so that its first term, first in an order that changes from run to run, has coefficient
+    /// one. Scaling it by the coefficient of the term that is first in our order undoes that.
+    signed_node integer_power(const ex& base, int exponent) {
+        const ex expanded = base.expand();
+        if (!GiNaC::is_a<GiNaC::add>(expanded)) {
+            const signed_node b = build(expanded);
+            return graph_.power(b, exponent);
+        }
+        const ex first = sorted(expanded).front().value;
+        const ex factor = GiNaC::is_a<GiNaC::mul>(first) && GiNaC::is_a<GiNaC::numeric>(first.op(first.nops() - 1))
+                              ? first.op(first.nops() - 1)
+                              : ex(1);
+        const signed_node b = build((expanded / factor).expand());
+        const signed_node scale = graph_.power(build(factor), exponent);
+        return graph_.multiply(scale, graph_.power(b, exponent));
+    }
+
+    expression_graph graph_;
+    std::map<ex, std::pair<int, signed_node>, GiNaC::ex_is_less> symbols_;
+};
+
+}  // namespace
+
+expression_graph build_graph(const symbolic_model& model, constants_as constants) {
+    expression_graph graph = graph_builder(model, constants).take();
+    graph.assert_invariants();
+    return graph;
+}
+
+}  // namespace idim::generator

@@ -1,0 +1,218 @@
+#include "kinematics/kinematic_tree.hpp"
+
+#include <cln/real.h>
+#include <fmt/format.h>
+
+#include <sstream>
+
+#include "graph/rational.hpp"
+
+namespace idim::generator {
+
+namespace {
+
+using GiNaC::ex;
+
+/// Number of quarter turns if an angle is a multiple of pi/2, otherwise -1.
+int quarter_turns(const ex& angle) {
+    const ex turns = (angle * 2 / GiNaC::Pi).expand();
+    if (!GiNaC::is_a<GiNaC::numeric>(turns) || !GiNaC::ex_to<GiNaC::numeric>(turns).is_integer()) {
+        return -1;
+    }
+    return GiNaC::mod(GiNaC::ex_to<GiNaC::numeric>(turns), 4).to_int();
+}
+
+angle_pair turned(const angle_pair& angle, int quarters) {
+    switch (quarters) {
+        case 1:
+            return {-angle.sin, angle.cos};
+        case 2:
+            return {-angle.cos, -angle.sin};
+        case 3:
+            return {angle.sin, -angle.cos};
+        default:
+            return angle;
+    }
+}
+
+std::string printed(const ex& e) {
+    std::ostringstream text;
+    text << e;
+    return text.str();
+}
+
+/// Turns the texts of one description into symbolic entries.
+class tree_reader {
+  public:
+    explicit tree_reader(const robot_description& robot) : robot_(robot) { tree_.robot = robot.name; }
+
+    kinematic_tree run() {
+        for (const constant_description& constant : robot_.constants) {
+            read_constant(constant);
+        }
+        for (std::size_t i = 0; i < 3; ++i) {
+            tree_.gravity[i] = parse_expression(robot_.gravity[i], names_);
+            check_finite(tree_.gravity[i], robot_.gravity[i].where);
+        }
+        for (const joint_description& joint : robot_.joints) {
+            read_joint(joint);
+        }
+        tree_.constant_names = names_;
+        return std::move(tree_);
+    }
+
+  private:
+    void read_constant(const constant_description& constant) {
+        const ex value = parse_expression(constant.value, names_).subs(values_);
+        const GiNaC::numeric number = constant_value(value, constant.value.where);
+        if (number.is_zero()) {
+            names_[constant.name] = 0;
+            return;
+        }
+        const GiNaC::symbol symbol(constant.name);
+        names_[constant.name] = symbol;
+        values_[symbol] = value;
+        tree_.constants.push_back({symbol, constant.name, true, number, -1, false});
+    }
+
+    void check_finite(const ex& value, const input_location& where) { constant_value(value.subs(values_), where); }
+
+    ex length(const expression_text& text) {
+        ex value = parse_expression(text, names_);
+        check_finite(value, text.where);
+        return is_number(value) ? literal(value) : value.expand();
+    }
+
+    static bool is_number(const ex& value) { return GiNaC::is_a<GiNaC::numeric>(value) && !value.is_zero(); }
+
+    /// A bare number becomes a symbol too, one for each magnitude, so that regroupings stay formulas until they are printed.
+    ex literal(const ex& value) {
+        const GiNaC::numeric number = GiNaC::ex_to<GiNaC::numeric>(value);
+        const GiNaC::numeric magnitude = GiNaC::abs(number);
+        for (const kinematic_constant& known : tree_.constants) {
+            if (!known.is_named && known.angle < 0 && known.value == magnitude) {
+                return number.is_negative() ? -known.symbol : known.symbol;
+            }
+        }
+        const std::string text = to_decimal(cln::the<cln::cl_RA>(magnitude.to_cl_N()));
+        const GiNaC::symbol symbol("length_" + text);
+        tree_.constants.push_back({symbol, text, false, magnitude, -1, false});
+        return number.is_negative() ? -symbol : symbol;
+    }
+
+    angle_pair constant_angle(const expression_text& text) {
+        const ex angle = parse_expression(text, names_);
+        check_finite(angle, text.where);
+        const int quarters = quarter_turns(angle.subs(values_));
+        return quarters >= 0 ? turned({1, 0}, quarters) : angle_symbols(angle, text);
+    }
+
+    /// Cosine and sine of an angle that is no multiple of pi/2, on the unit circle exactly: from t = tan(angle/2) to 60 digits.
+    angle_pair angle_symbols(const ex& angle, const expression_text& text) {
+        for (std::size_t i = 0; i < angles_.size(); ++i) {
+            if (angles_[i].is_equal(angle)) {
+                return angle_pairs_[i];
+            }
+        }
+        const GiNaC::numeric t = constant_value(GiNaC::tan(angle.subs(values_) / 2), text.where);
+        const GiNaC::numeric norm = 1 + t * t;
+        const int number = static_cast<int>(angles_.size());
+        const std::string shown = is_number(angle) ? text.text : printed(angle);
+        const GiNaC::symbol c("cos_" + std::to_string(number));
+        const GiNaC::symbol s("sin_" + std::to_string(number));
+        tree_.constants.push_back({c, "cos(" + shown + ")", true, (1 - t * t) / norm, number, false});
+        tree_.constants.push_back({s, "sin(" + shown + ")", true, 2 * t / norm, number, true});
+        angles_.push_back(angle);
+        angle_pairs_.push_back({c, s});
+        return angle_pairs_.back();
+    }
+
+    void read_joint(const joint_description& source) {
+        kinematic_joint joint;
+        joint.name = source.name;
+        joint.type = source.type;
+        joint.antecedent = source.antecedent;
+        joint.gamma = constant_angle(source.gamma);
+        joint.alpha = constant_angle(source.alpha);
+        joint.b = length(source.b);
+        joint.d = length(source.d);
+        if (source.type == joint_type::revolute) {
+            joint.r = length(source.r);
+            read_revolute(joint, source.theta);
+        } else if (source.type == joint_type::prismatic) {
+            joint.theta = constant_angle(source.theta);
+            read_prismatic(joint, source.r);
+        } else {
+            joint.theta = constant_angle(source.theta);
+            joint.r = length(source.r);
+        }
+        joint.label = joint.coordinate >= 0 ? std::to_string(joint.coordinate + 1) : "_" + joint.name;
+        tree_.joints.push_back(joint);
+    }
+
+    /// Splits an expression that must read rate*q + offset, both constant.
+    std::pair<ex, ex> linear_in_q(const expression_text& text) {
+        const int number = static_cast<int>(tree_.driven.size()) + 1;
+        const GiNaC::symbol q(fmt::format("q{}", number));
+        named_values names = names_;
+        names["q"] = q;
+        const ex value = parse_expression(text, names);
+        const ex rate = value.diff(q);
+        if (rate.is_zero() || rate.has(q)) {
+            throw input_error(text.where,
+                              fmt::format("\"{}\" given, expected a constant times q plus a constant, such as \"q\" or "
+                                          "\"q + pi/2\"",
+                                          text.text));
+        }
+        const ex offset = value.subs(q == 0).expand();
+        check_finite(offset, text.where);
+        check_finite(rate, text.where);
+        tree_.driven.push_back(static_cast<int>(tree_.joints.size()));
+        tree_.q.push_back(q);
+        tree_.qd.emplace_back(fmt::format("qd{}", number));
+        tree_.qdd.emplace_back(fmt::format("qdd{}", number));
+        return {rate, offset};
+    }
+
+    void read_revolute(kinematic_joint& joint, const expression_text& text) {
+        const auto [rate, offset] = linear_in_q(text);
+        joint.coordinate = static_cast<int>(tree_.driven.size()) - 1;
+        joint.rate = rate;
+        const int quarters = quarter_turns(offset.subs(values_));
+        joint.angle = rate * tree_.q.back() + (quarters >= 0 ? ex(0) : offset);
+        joint.theta = turned({GiNaC::cos(joint.angle), GiNaC::sin(joint.angle)}, quarters);
+    }
+
+    void read_prismatic(kinematic_joint& joint, const expression_text& text) {
+        const auto [rate, offset] = linear_in_q(text);
+        joint.coordinate = static_cast<int>(tree_.driven.size()) - 1;
+        joint.rate = rate;
+        joint.r = rate * tree_.q.back() + (is_number(offset) ? literal(offset) : offset);
+    }
+
+    const robot_description& robot_;
+    kinematic_tree tree_;
+    named_values names_;
+    GiNaC::exmap values_;
+    std::vector<ex> angles_;
+    std::vector<angle_pair> angle_pairs_;
+};
+
+}  // namespace
+
+std::array<GiNaC::ex, 3> kinematic_joint::position() const {
+    const ex y = -alpha.sin * r;
+    return {(gamma.cos * d - gamma.sin * y).expand(), (gamma.sin * d + gamma.cos * y).expand(), (b + alpha.cos * r).expand()};
+}
+
+std::vector<int> kinematic_tree::path_to_base(int joint) const {
+    std::vector<int> path;
+    for (int j = joint; j >= 0; j = joints[static_cast<std::size_t>(j)].antecedent) {
+        path.push_back(j);
+    }
+    return path;
+}
+
+kinematic_tree build_kinematic_tree(const robot_description& robot) { return tree_reader(robot).run(); }
+
+}  // namespace idim::generator

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace idim {
+
+/// Stationary autoregressive model of a series, e_k = sum_i a_i e_{k-i} + eps_k with eps white. Fitted by the
+/// Yule-Walker equations, so it is stable and its autocovariance agrees with the sample's up to the order. An
+/// autoregressive spectrum is positive at every frequency, hence every variance computed with it is; and it follows a
+/// slowly decaying correlation with far less bias than a truncated (Bartlett, Newey-West) sum [den Haan and Levin 1997,
+/// "A practitioner's guide to robust covariance matrix estimation", Handbook of Statistics 15, the VARHAC estimator].
+struct autoregression {
+    Eigen::VectorXd a;        ///< [p] coefficients of lags 1..p
+    Eigen::VectorXd rho;      ///< [p] autocorrelation at lags 1..p
+    double variance = 0.0;    ///< of the series, [unit^2]
+    double innovation = 0.0;  ///< variance of eps, [unit^2]
+
+    Eigen::Index order() const { return a.size(); }
+    /// Autocorrelation at lags 0..lags, [lags + 1].
+    Eigen::VectorXd autocorrelation(Eigen::Index lags) const;
+    /// Rows after which the response to one innovation stays below 1e-4 of it, at most `limit`.
+    Eigen::Index memory(Eigen::Index limit) const;
+    /// Integrated autocorrelation time [rows], >= 1: the larger of 1 + 2 sum rho(l), by which the variance of a mean
+    /// grows, and 1 + 2 sum rho(l)^2, which also sees an oscillation whose rho(l) sum to nothing. At most `limit`.
+    double correlation_length(Eigen::Index limit) const;
+};
+
+/// Autocovariance about zero at lags 0..lags, pooled over segments, products never taken across a seam: sum of e_k
+/// e_{k+l} divided by the number of all samples, which keeps the sequence positive semi-definite. Zeros if there are no
+/// samples.
+Eigen::VectorXd autocovariance(const std::vector<Eigen::VectorXd>& segments, Eigen::Index lags);
+
+/// Highest order worth trying, 10 log10 of the number of samples [Schwert 1989; the default of R's ar()], but at most a
+/// quarter of the mean segment.
+Eigen::Index highest_order(const std::vector<Eigen::VectorXd>& segments);
+
+/// Yule-Walker fit to the autocovariance at lags 0..highest order of `samples` samples, by Levinson's recursion, order
+/// chosen by the corrected Akaike criterion [Hurvich and Tsai 1989]. An autocovariance that stops being positive
+/// definite ends the recursion there; a series of zeros gives order 0 and no variance.
+autoregression fit_autoregression(const Eigen::VectorXd& autocovariance, Eigen::Index samples);
+
+/// Innovations eps_k of a segment [n - p]; the first p samples have no full past and are left out.
+Eigen::VectorXd innovations(const autoregression& model, const Eigen::VectorXd& segment);
+
+/// Responses Z of the columns of X (n x b) to one innovation, ((n + tail) x b): with it X' Gamma X = innovation * Z'Z,
+/// Gamma the n x n Toeplitz autocovariance of the model. Row m belongs to the innovation of sample m - tail. `tail`
+/// must be at least the memory of the model for the equality to hold.
+Eigen::MatrixXd innovation_responses(const autoregression& model, const Eigen::MatrixXd& X, Eigen::Index tail);
+
+/// Sum over columns c of sum_k X(k, c) X(k + l, c) at lags 0..lags, [lags + 1].
+Eigen::VectorXd lagged_products(const Eigen::MatrixXd& X, Eigen::Index lags);
+
+}  // namespace idim

@@ -1,0 +1,164 @@
+#include "idim/autocorrelation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace idim {
+
+namespace {
+
+constexpr double forgotten = 1e-4;
+
+/// x_m = sum_i a_i x_{m+i}, over `tail` rows before the first one of Z and over the rows that already hold the input.
+void filter_backward(const Eigen::VectorXd& a, Eigen::Ref<Eigen::VectorXd> z) {
+    for (Eigen::Index m = z.size() - 2; m >= 0; --m) {
+        const Eigen::Index past = std::min(a.size(), z.size() - 1 - m);
+        z[m] += a.head(past).dot(z.segment(m + 1, past));
+    }
+}
+
+/// Corrected Akaike criterion of an autoregression with variance v of the innovations.
+double akaike(double v, Eigen::Index order, Eigen::Index samples) {
+    const double n = static_cast<double>(samples);
+    const double parameters = static_cast<double>(order) + 1.0;
+    return n * std::log(v) + 2.0 * parameters * n / (n - parameters - 1.0);
+}
+
+}  // namespace
+
+Eigen::VectorXd autoregression::autocorrelation(Eigen::Index lags) const {
+    Eigen::VectorXd r = Eigen::VectorXd::Zero(lags + 1);
+    r[0] = 1.0;
+    for (Eigen::Index l = 1; l <= lags; ++l) {
+        if (l <= order()) {
+            r[l] = rho[l - 1];
+            continue;
+        }
+        for (Eigen::Index i = 0; i < order(); ++i) {
+            r[l] += a[i] * r[l - 1 - i];
+        }
+    }
+    return r;
+}
+
+Eigen::Index autoregression::memory(Eigen::Index limit) const {
+    if (order() == 0) {
+        return 0;
+    }
+    Eigen::VectorXd response = Eigen::VectorXd::Zero(limit + order() + 1);
+    response[0] = 1.0;
+    Eigen::Index quiet = 0;
+    for (Eigen::Index m = 1; m < response.size(); ++m) {
+        const Eigen::Index past = std::min(order(), m);
+        response[m] = a.head(past).dot(response.segment(m - past, past).reverse());
+        quiet = std::abs(response[m]) < forgotten ? quiet + 1 : 0;
+        if (quiet >= order()) {
+            return std::min(limit, m - order());
+        }
+    }
+    return limit;
+}
+
+double autoregression::correlation_length(Eigen::Index limit) const {
+    if (order() == 0) {
+        return 1.0;
+    }
+    const double gain = 1.0 - a.sum();
+    const double at_zero = innovation / (variance * gain * gain);
+    const double squared = 2.0 * autocorrelation(memory(limit) + order()).squaredNorm() - 1.0;
+    return std::clamp(std::max(at_zero, squared), 1.0, std::max(1.0, static_cast<double>(limit)));
+}
+
+Eigen::VectorXd autocovariance(const std::vector<Eigen::VectorXd>& segments, Eigen::Index lags) {
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(lags + 1);
+    Eigen::Index samples = 0;
+    for (const Eigen::VectorXd& e : segments) {
+        sum += lagged_products(e, lags);
+        samples += e.size();
+    }
+    return samples > 0 ? Eigen::VectorXd(sum / static_cast<double>(samples)) : sum;
+}
+
+Eigen::Index highest_order(const std::vector<Eigen::VectorXd>& segments) {
+    double samples = 0.0;
+    for (const Eigen::VectorXd& e : segments) {
+        samples += static_cast<double>(e.size());
+    }
+    if (samples < 1.0) {
+        return 0;
+    }
+    const double mean_length = samples / static_cast<double>(segments.size());
+    return static_cast<Eigen::Index>(std::min(10.0 * std::log10(samples), mean_length / 4.0));
+}
+
+autoregression fit_autoregression(const Eigen::VectorXd& autocovariance, Eigen::Index samples) {
+    autoregression best;
+    best.variance = std::max(autocovariance[0], 0.0);
+    best.innovation = best.variance;
+    if (best.variance == 0.0 || samples < 4) {
+        return best;
+    }
+    const Eigen::VectorXd r = autocovariance / best.variance;
+    double best_criterion = akaike(1.0, 0, samples);
+    double v = 1.0;
+    Eigen::VectorXd a(0);
+    for (Eigen::Index p = 1; p < r.size() && p + 2 < samples; ++p) {
+        const double reflection = (r[p] - a.dot(r.segment(1, p - 1).reverse())) / v;
+        v *= 1.0 - reflection * reflection;
+        if (!(v > 1e-12)) {
+            break;
+        }
+        Eigen::VectorXd next(p);
+        next << a - reflection * a.reverse(), reflection;
+        a = next;
+        const double criterion = akaike(v, p, samples);
+        if (criterion < best_criterion) {
+            best_criterion = criterion;
+            best.a = a;
+            best.rho = r.segment(1, p);
+            best.innovation = v * best.variance;
+        }
+    }
+    return best;
+}
+
+Eigen::VectorXd innovations(const autoregression& model, const Eigen::VectorXd& segment) {
+    const Eigen::Index p = model.order();
+    if (segment.size() <= p) {
+        return Eigen::VectorXd(0);
+    }
+    Eigen::VectorXd eps = segment.tail(segment.size() - p);
+    for (Eigen::Index i = 0; i < p; ++i) {
+        eps -= model.a[i] * segment.segment(p - 1 - i, eps.size());
+    }
+    return eps;
+}
+
+Eigen::MatrixXd innovation_responses(const autoregression& model, const Eigen::MatrixXd& X, Eigen::Index tail) {
+    // x'e = sum_k x_k sum_i psi_i eps_{k-i} = sum_m eps_m z_m with z_m = sum_{k>=m} psi_{k-m} x_k: the columns filtered
+    // by the model backward in time, from the last row to the innovations before the first one.
+    Eigen::MatrixXd Z = Eigen::MatrixXd::Zero(X.rows() + tail, X.cols());
+    Z.bottomRows(X.rows()) = X;
+    for (Eigen::Index c = 0; c < Z.cols(); ++c) {
+        if (!X.col(c).isZero(0.0)) {
+            filter_backward(model.a, Z.col(c));
+        }
+    }
+    return Z;
+}
+
+Eigen::VectorXd lagged_products(const Eigen::MatrixXd& X, Eigen::Index lags) {
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(lags + 1);
+    for (Eigen::Index c = 0; c < X.cols(); ++c) {
+        const auto x = X.col(c);
+        if (x.isZero(0.0)) {
+            continue;
+        }
+        for (Eigen::Index l = 0; l <= std::min(lags, X.rows() - 1); ++l) {
+            sum[l] += x.head(X.rows() - l).dot(x.tail(X.rows() - l));
+        }
+    }
+    return sum;
+}
+
+}  // namespace idim

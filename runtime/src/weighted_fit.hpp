@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "idim/estimate.hpp"
+#include "stacked_qr.hpp"
+
+namespace idim {
+
+/// Throws std::invalid_argument if a block has not one W (rows x n_base) and one Y (rows) per joint: a broken
+/// invariant.
+void check_shapes(const observation& rows);
+
+/// Y - W chi, [joint][block].
+joint_series residuals(const observation& rows, const Eigen::VectorXd& chi);
+
+/// Rows of joint j multiplied by factor[j].
+joint_series scaled(joint_series series, const std::vector<double>& factor);
+
+/// Least squares with the rows of joint j multiplied by joint_weight[j] > 0, and all of its statistics; the deviation
+/// of a joint is the root of its squared residual over its rows less the parameters they determine
+/// (stacked_qr::parameter_share). Never throws for the sake of the numbers: where they cannot be had, chi is empty and
+/// message says why.
+estimate weighted_fit(const observation& rows, const std::vector<double>& joint_weight);
+
+/// Fills covariance, correlation_length and std_white of `result`, for chi that zeroes W' score: qr is the factor of
+/// the rows weighted with joint_weight, of full rank; score the weighted residual, or a robust function of it
+/// (sandwich.hpp).
+void add_deviations(const observation& rows, const std::vector<double>& joint_weight, const stacked_qr& qr,
+                    const joint_series& score, estimate& result);
+
+/// 1 / deviation, for a deviation of zero (a joint without torque, rows without noise) that of 1e-6 of the largest; 1
+/// if all are zero: a perfect fit must not make the weights of the others vanish.
+std::vector<double> weights_of(const std::vector<double>& joint_deviation);
+
+}  // namespace idim
