@@ -120,7 +120,7 @@ base_parameter_set find_base_parameters(const kinematic_tree& tree, const standa
         base_parameter base{p, parameter.name, parameter.unit, parameter.min, {}, {}};
         for (const regrouped_column& column : columns) {
             if (column.kept == p) {
-                base.regrouped.push_back({column.dropped, column.coefficient, column.value});
+                base.regrouped.push_back({column.dropped, column.coefficient, column.exact});
             }
         }
         std::sort(base.regrouped.begin(), base.regrouped.end(),

@@ -13,7 +13,7 @@ namespace idim::generator {
 struct regrouped_term {
     std::size_t standard = 0;
     constant_polynomial coefficient;
-    double value = 0.0;  ///< the coefficient at the robot's own constants
+    rational exact;  ///< the coefficient at the robot's own constants
 };
 
 /// chi_base = chi_kept + sum of beta chi_dropped (Gautier 1991).

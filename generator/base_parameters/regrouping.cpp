@@ -221,7 +221,7 @@ std::vector<regrouped_column> regrouping::columns() const {
                 coefficient = number(own_.beta[k][d]);
             }
             if (!own_.beta[k][d].is_zero()) {
-                result.push_back({own_.kept[k], own_.dropped[d], *coefficient, to_double(coefficient->value(own_constants_))});
+                result.push_back({own_.kept[k], own_.dropped[d], *coefficient, coefficient->value(own_constants_)});
             }
         }
     }
@@ -230,10 +230,6 @@ std::vector<regrouped_column> regrouping::columns() const {
 
 void regrouping::prove(const std::vector<regrouped_column>& columns) const {
     const constant_values values = by_symbol(W_.graph, own_constants_);
-    std::vector<rational> coefficients;
-    for (const regrouped_column& column : columns) {
-        coefficients.push_back(column.coefficient.value(own_constants_));
-    }
     for (int s = 0; s < points_; ++s) {
         sample_point<rational> point(static_cast<std::uint64_t>(s) + 1, point_height);
         const std::vector<rational> entries = point.evaluate_at(W_.graph, values);
@@ -250,7 +246,7 @@ void regrouping::prove(const std::vector<regrouped_column>& columns) const {
             for (std::size_t c = 0; c < columns.size(); ++c) {
                 const auto at = std::find(own_.dropped.begin(), own_.dropped.end(), columns[c].dropped) - own_.dropped.begin();
                 auto& remainder = rest[static_cast<std::size_t>(at)];
-                remainder = remainder - coefficients[c] * W[row * width + columns[c].kept];
+                remainder = remainder - columns[c].exact * W[row * width + columns[c].kept];
             }
             if (!std::all_of(rest.begin(), rest.end(), [](const rational& r) { return cln::zerop(r); })) {
                 throw rank_disagreement(fmt::format("base parameters: rank {} modulo a prime, but the regrouping does not hold "

@@ -14,7 +14,7 @@ struct regrouped_column {
     std::size_t kept = 0;
     std::size_t dropped = 0;
     constant_polynomial coefficient;
-    double value = 0.0;
+    rational exact;  ///< its value at the robot's own constants
 };
 
 /// Exact side of the search for base parameters: which columns of the standard regressor depend on which, as formulas in the

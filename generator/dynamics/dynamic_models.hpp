@@ -30,8 +30,7 @@ symbolic_model bias_model(const kinematic_tree& tree, const standard_parameters&
 symbolic_model gravity_model(const kinematic_tree& tree, const standard_parameters& parameters,
                              const parameter_selection& selection);
 
-/// M [n x n], row-major, symmetric; what effects contribute per unit of qdd included. Output array "M". Throws std::logic_error
-/// where the torque of an effect is not affine in qdd.
+/// M [n x n], row-major, symmetric; what effects contribute per unit of qdd included. Output array "M".
 symbolic_model mass_matrix_model(const kinematic_tree& tree, const standard_parameters& parameters,
                                  const parameter_selection& selection);
 

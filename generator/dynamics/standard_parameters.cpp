@@ -119,6 +119,7 @@ class effect_reader {
         for (std::size_t k = 0; k < linear.size(); ++k) {
             const ex column = torque.diff(linear[k]).expand();
             check_free_of(column, linear);
+            check_affine_in_acceleration(column);
             rest -= linear[k] * column;
             parameters[k].columns.emplace_back(joint, column);
         }
@@ -134,6 +135,20 @@ class effect_reader {
             if (column.has(coefficient)) {
                 throw input_error(effect_.torque.where, fmt::format("expression \"{}\": {} does not enter linearly",
                                                                     effect_.torque.text, coefficient.get_name()));
+            }
+        }
+    }
+
+    /// Otherwise there would be no mass matrix and no direct dynamic model.
+    void check_affine_in_acceleration(const ex& column) const {
+        for (const GiNaC::symbol& a : tree_.qdd) {
+            const ex slope = column.diff(a);
+            for (const GiNaC::symbol& b : tree_.qdd) {
+                if (slope.has(b)) {
+                    throw input_error(effect_.torque.where,
+                                      fmt::format("expression \"{}\": expected a torque that is affine in the accelerations",
+                                                  effect_.torque.text));
+                }
             }
         }
     }
@@ -164,8 +179,8 @@ void check_unique(const std::vector<standard_parameter>& parameters, const std::
 
 ex standard_parameter::column_at(int at_joint) const {
     ex sum = 0;
-    for (const auto& [joint, column] : columns) {
-        sum += joint == at_joint ? column : ex(0);
+    for (const auto& [acting_joint, column] : columns) {
+        sum += acting_joint == at_joint ? column : ex(0);
     }
     return sum;
 }

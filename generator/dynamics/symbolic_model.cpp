@@ -21,14 +21,15 @@ bool is_trivial(const GiNaC::ex& body) {
 symbolic_model::symbolic_model(const kinematic_tree& tree) {
     for (std::size_t i = 0; i < tree.constants.size(); ++i) {
         const kinematic_constant& constant = tree.constants[i];
-        leaves_.push_back({constant.symbol,
-                           {constant.symbol.get_name(), symbol_role::constant, static_cast<int>(i)},
-                           cln::the<cln::cl_RA>(constant.value.to_cl_N())});
+        declare(constant.symbol, {constant.symbol.get_name(), symbol_role::constant, static_cast<int>(i)});
+        leaves_.back().value = cln::the<cln::cl_RA>(constant.value.to_cl_N());
     }
 }
 
 void symbolic_model::declare(const GiNaC::symbol& symbol, const graph_symbol& declared) {
-    leaves_.push_back({symbol, declared, std::nullopt});
+    symbolic_leaf& leaf = leaves_.emplace_back();
+    leaf.symbol = symbol;
+    leaf.declared = declared;
 }
 
 GiNaC::symbol symbolic_model::declare(const graph_symbol& declared) {

@@ -180,6 +180,13 @@ signed_node expression_graph::power(signed_node base, int exponent) {
     return exponent % 2 == 0 ? square : multiply(square, base);
 }
 
+/// sign(c x) = sign(x) for a positive constant c.
+signed_node expression_graph::without_scale(signed_node value) const {
+    const graph_node& node = (*this)[value];
+    const bool scaled = node.kind == operation::multiply && is_constant(node.a);
+    return scaled ? signed_node{node.b.id, value.negative != node.b.negative} : value;
+}
+
 signed_node expression_graph::function(function_kind kind, signed_node argument) {
     const bool is_odd = kind == function_kind::sin || kind == function_kind::tan || kind == function_kind::sign ||
                         kind == function_kind::tanh || kind == function_kind::atan;
@@ -191,6 +198,9 @@ signed_node expression_graph::function(function_kind kind, signed_node argument)
         if (kind == function_kind::cos || kind == function_kind::exp) {
             return {one_, false};
         }
+    }
+    if (kind == function_kind::sign) {
+        argument = without_scale(argument);
     }
     if (!is_odd && !is_even) {
         return intern(operation::function, kind, argument, {zero_, false});

@@ -116,6 +116,7 @@ class expression_graph {
 
     signed_node intern(operation kind, function_kind function, signed_node a, signed_node b);
     rational signed_value(signed_node value) const;
+    signed_node without_scale(signed_node value) const;
 
     std::vector<graph_node> nodes_;
     std::vector<graph_symbol> symbols_;

@@ -15,7 +15,7 @@
 // rises with f^4: between them lies a valley, above which the data say nothing of the motion. The rows keep the band
 // that holds 99.9 % of the acceleration and torque energy found below the valley; the position filter is set so far
 // above that band that it takes 0.05 % at its edge, so the regressor is not distorted where the rows look. Set against
-// published choices: EMPS order 4, 100 Hz, decimation 10 (here 98 Hz, 10); other robots in tests/runtime.
+// published choices: EMPS order 4, 100 Hz, decimation 10 (here 99 Hz, 10); other robots in tests/runtime.
 
 namespace idim {
 namespace {
@@ -103,6 +103,7 @@ double half_octave_mean(const power_spectrum& spectrum, double f) {
 /// the joints.
 double find_noise_floor(const std::vector<joint_spectra>& spectra, double rate) {
     std::vector<double> lowest;
+    lowest.reserve(spectra.size());
     for (const joint_spectra& joint : spectra) {
         lowest.push_back(joint.lowest);
     }

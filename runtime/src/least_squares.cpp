@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "idim/estimate.hpp"
 #include "stacked_qr.hpp"
@@ -81,11 +82,11 @@ void add_robust_deviations(const observation& rows, const joint_series& residual
 }
 
 /// Iteratively reweighted least squares from `start`, Huber's loss, scale per joint by the median.
-estimate reweighted(const observation& rows, estimate start) {
-    estimate result = std::move(start);
+estimate reweighted(const observation& rows, weighted_solution start) {
+    estimate result = std::move(start.fit);
+    stacked_qr qr = std::move(start.qr);
     result.converged = false;
     result.iterations = {{result.chi, result.residual.relative_error}};
-    stacked_qr qr = factor(rows, uniform_weights(rows, weights_of(result.joint_deviation)));
     std::vector<double> scale;
     for (int step = 0; step < most_iterations && !result.converged; ++step) {
         const joint_series residual = residuals(rows, result.chi);
@@ -114,15 +115,20 @@ estimate reweighted(const observation& rows, estimate start) {
 }  // namespace
 
 estimate least_squares(const observation& rows, least_squares_method method) {
-    const estimate ordinary = weighted_fit(rows, std::vector<double>(static_cast<std::size_t>(rows.dof), 1.0));
-    if (method == least_squares_method::ols || ordinary.chi.size() == 0) {
+    const std::vector<double> unweighted(static_cast<std::size_t>(rows.dof), 1.0);
+    if (method == least_squares_method::ols) {
+        return weighted_fit(rows, unweighted);
+    }
+    const estimate ordinary = solve_weighted(rows, unweighted).fit;
+    if (ordinary.chi.size() == 0) {
         return ordinary;
     }
-    estimate weighted = weighted_fit(rows, weights_of(ordinary.joint_deviation));
-    if (method == least_squares_method::wls || weighted.chi.size() == 0) {
-        return weighted;
+    const std::vector<double> weight = weights_of(ordinary.joint_deviation);
+    if (method == least_squares_method::wls) {
+        return weighted_fit(rows, weight);
     }
-    return reweighted(rows, std::move(weighted));
+    weighted_solution start = solve_weighted(rows, weight);
+    return start.fit.chi.size() > 0 ? reweighted(rows, std::move(start)) : start.fit;
 }
 
 }  // namespace idim

@@ -82,6 +82,7 @@ class log_header {
     /// Columns of `signal` joint by joint; empty if the header has none of them.
     std::vector<int> find(const std::string& signal) const {
         std::vector<int> columns;
+        columns.reserve(static_cast<size_t>(dof_));
         for (int joint = 0; joint < dof_; ++joint) {
             columns.push_back(find(signal, joint));
         }
@@ -96,7 +97,7 @@ class log_header {
     }
 
     std::vector<int> require(const std::string& signal) const {
-        const std::vector<int> columns = find(signal);
+        std::vector<int> columns = find(signal);
         if (columns.empty()) {
             fail_missing(spellings(signal, 0));
         }
@@ -344,13 +345,16 @@ void write_log(const std::string& file, const log& data) {
     const std::initializer_list<std::pair<const char*, const Eigen::MatrixXd*>> signals = {
         {"q", &data.q},   {"tau", &data.tau}, {"v", &data.v},      {"qr", &data.qr},
         {"qd", &data.qd}, {"qdd", &data.qdd}, {"temp", &data.temp}};
+    const auto columns = [](const Eigen::MatrixXd& matrix) {
+        return matrix.size() == 0 ? Eigen::Index{0} : matrix.cols();
+    };
     std::string text = "t";
     for (const auto& [name, matrix] : signals) {
         if (matrix->size() > 0 && matrix->rows() != data.samples()) {
             throw std::invalid_argument("write_log: " + std::string(name) + " has " + std::to_string(matrix->rows()) +
                                         " rows, t has " + std::to_string(data.samples()));
         }
-        for (Eigen::Index joint = 0; joint < matrix->cols(); ++joint) {
+        for (Eigen::Index joint = 0; joint < columns(*matrix); ++joint) {
             text += "," + (name + std::to_string(joint + 1));
         }
     }
@@ -363,7 +367,7 @@ void write_log(const std::string& file, const log& data) {
     for (Eigen::Index k = 0; k < data.samples(); ++k) {
         append(data.t[k]);
         for (const auto& [name, matrix] : signals) {
-            for (Eigen::Index joint = 0; joint < matrix->cols(); ++joint) {
+            for (Eigen::Index joint = 0; joint < columns(*matrix); ++joint) {
                 text += ',';
                 append((*matrix)(k, joint));
             }

@@ -67,10 +67,10 @@ row_major_matrix sample_regressor(const idim_model_interface& model, const filte
     return sampled;
 }
 
-/// Joints whose full-rate rows are held at once: as many as fit in about 1 GiB, so that a long log costs repeated
+/// Joints whose full-rate rows are held at once: as many as fit in 256 MiB, so that a long log costs repeated
 /// evaluations of the regressor instead of memory.
 int joints_at_once(const idim_model_interface& model, Eigen::Index samples) {
-    constexpr double budget = 1024.0 * 1024.0 * 1024.0;
+    constexpr double budget = 256.0 * 1024.0 * 1024.0;
     const double one_joint = static_cast<double>(samples) * model.n_base * sizeof(double);
     return static_cast<int>(std::clamp(budget / one_joint, 1.0, static_cast<double>(model.dof)));
 }
@@ -87,7 +87,7 @@ observation_block observe_log(const idim_model_interface& model, const filtered_
         const int count = std::min(step, model.dof - first);
         const Eigen::MatrixXd W = decimate(sample_regressor(model, samples, first, count), choice.decimation);
         for (int joint = 0; joint < count; ++joint) {
-            block.W.emplace_back(W.middleCols(joint * model.n_base, model.n_base));
+            block.W.emplace_back(W.middleCols(Eigen::Index{joint} * model.n_base, model.n_base));
         }
     }
     const Eigen::MatrixXd Y =
@@ -119,6 +119,7 @@ Eigen::Index observation::rows() const {
 observation observe(const idim_model_interface& model, const std::vector<filtered_samples>& logs,
                     const filter_choice& choice) {
     std::vector<named_rate> rates;
+    rates.reserve(logs.size());
     for (const filtered_samples& samples : logs) {
         rates.push_back({samples.file, samples.rate});
     }

@@ -70,10 +70,9 @@ Eigen::VectorXd pairs(const std::vector<Eigen::VectorXd>& segments, Eigen::Index
     return count;
 }
 
-/// Models of the noise from the residual's autocovariance, corrected for what the fit has taken away: with e = (1 -
-/// QQ') rho,
-///     E[sum_k e_k e_{k+l}] = pairs(l) gamma(l) - 2 tr(Q_j' D_l Gamma_j Q_j) + tr(D_l Q_j S Q_j'),  S = sum_j Q_j'
-///     Gamma_j Q_j.
+/// Models of the noise from the residual's autocovariance, corrected for what the fit has taken away. With
+/// e = (1 - QQ') rho and S = sum_j Q_j' Gamma_j Q_j, the products of joint j at lag l have the expectation
+///     pairs(l) gamma_j(l) - 2 tr(Q_j' D_l Gamma_j Q_j) + tr(D_l Q_j S Q_j').
 std::vector<autoregression> noise_models(const joint_basis& Q, const joint_series& residual) {
     const std::size_t joints = residual.size();
     const Eigen::Index b = Q.front().front().cols();
@@ -143,8 +142,10 @@ Eigen::MatrixXd innovation_root(const std::vector<autoregression>& models, const
         }
     }
     const Eigen::VectorXd norm = products.diagonal().cwiseSqrt();
-    const Eigen::VectorXd scale = (norm.array() > 0.0).select(deviation.cwiseQuotient(norm), 0.0);
-    return root_of(scale.asDiagonal() * products * scale.asDiagonal());
+    const Eigen::VectorXd scale = (norm.array() > 0.0).select(norm.cwiseInverse(), 0.0);
+    Eigen::MatrixXd correlation = scale.asDiagonal() * products * scale.asDiagonal();
+    correlation.diagonal().setOnes();
+    return root_of(deviation.asDiagonal() * correlation * deviation.asDiagonal());
 }
 
 /// Adds sum_m (sum_j z_jm root_ji) (...)' of one block: the variance of Q' rho that the innovations of all joints make

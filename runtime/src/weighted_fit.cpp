@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "sandwich.hpp"
 
@@ -130,37 +132,45 @@ void add_deviations(const observation& rows, const std::vector<double>& joint_we
     result.std_white = std::sqrt(sum / freedom) * qr.inverse().rowwise().norm();
 }
 
-estimate weighted_fit(const observation& rows, const std::vector<double>& joint_weight) {
+weighted_solution solve_weighted(const observation& rows, const std::vector<double>& joint_weight) {
     check_shapes(rows);
     if (const std::string problem = obstacle(rows); !problem.empty()) {
-        return failure(rows, {}, problem);
+        return {failure(rows, {}, problem), {}};
     }
-    const stacked_qr qr = factor(rows, uniform_weights(rows, joint_weight));
+    stacked_qr qr = factor(rows, uniform_weights(rows, joint_weight));
     const rank_report rank = examine(qr);
     if (rank.rank < rows.n_base) {
-        return failure(
-            rows, rank,
-            fmt::format("{} rows excite only {} of {} parameters; {} of them cannot be told apart or do not move",
-                        rows.rows(), rank.rank, rows.n_base, rank.not_excited.size()));
+        return {failure(rows, rank,
+                        fmt::format("{} rows excite only {} of {} parameters; {} do not move or cannot be told apart",
+                                    rows.rows(), rank.rank, rows.n_base, rank.not_excited.size())),
+                std::move(qr)};
     }
     if (rows.rows() == rows.n_base) {
-        return failure(
-            rows, rank,
-            fmt::format("{} rows for {} parameters leave nothing to judge them by", rows.rows(), rows.n_base));
+        return {
+            failure(rows, rank,
+                    fmt::format("{} rows for {} parameters leave nothing to judge them by", rows.rows(), rows.n_base)),
+            std::move(qr)};
     }
-    estimate result;
-    result.chi = qr.solve();
-    const joint_series residual = residuals(rows, result.chi);
-    add_deviations(rows, joint_weight, qr, scaled(residual, joint_weight), result);
-    result.converged = true;
-    result.rank = rank.rank;
-    result.condition_number = rank.condition_number;
-    result.scaled_condition_number = rank.scaled_condition_number;
-    result.samples = rows.rows();
-    result.joint_deviation = deviations_of(rows, residual, qr.parameter_share());
-    result.residual = errors(rows, result.chi);
-    result.message = fmt::format("{} parameters from {} rows, all excited", rows.n_base, rows.rows());
-    return result;
+    estimate fit;
+    fit.chi = qr.solve();
+    fit.converged = true;
+    fit.rank = rank.rank;
+    fit.condition_number = rank.condition_number;
+    fit.scaled_condition_number = rank.scaled_condition_number;
+    fit.samples = rows.rows();
+    fit.joint_deviation = deviations_of(rows, residuals(rows, fit.chi), qr.parameter_share());
+    fit.residual = errors(rows, fit.chi);
+    fit.message = fmt::format("{} parameters from {} rows, all excited", rows.n_base, rows.rows());
+    return {std::move(fit), std::move(qr)};
+}
+
+estimate weighted_fit(const observation& rows, const std::vector<double>& joint_weight) {
+    weighted_solution solution = solve_weighted(rows, joint_weight);
+    if (solution.fit.chi.size() > 0) {
+        add_deviations(rows, joint_weight, solution.qr, scaled(residuals(rows, solution.fit.chi), joint_weight),
+                       solution.fit);
+    }
+    return std::move(solution.fit);
 }
 
 }  // namespace idim

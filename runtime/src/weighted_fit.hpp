@@ -17,10 +17,18 @@ joint_series residuals(const observation& rows, const Eigen::VectorXd& chi);
 /// Rows of joint j multiplied by factor[j].
 joint_series scaled(joint_series series, const std::vector<double>& factor);
 
-/// Least squares with the rows of joint j multiplied by joint_weight[j] > 0, and all of its statistics; the deviation
-/// of a joint is the root of its squared residual over its rows less the parameters they determine
-/// (stacked_qr::parameter_share). Never throws for the sake of the numbers: where they cannot be had, chi is empty and
-/// message says why.
+/// A fit whose covariance, correlation_length and std_white are still empty, and the factor it came from.
+struct weighted_solution {
+    estimate fit;
+    stacked_qr qr;
+};
+
+/// Least squares with the rows of joint j multiplied by joint_weight[j] > 0. The deviation of a joint is the root of
+/// its squared residual over its rows less the parameters they determine (stacked_qr::parameter_share). Never throws
+/// for the sake of the numbers: where they cannot be had, chi is empty and message says why.
+weighted_solution solve_weighted(const observation& rows, const std::vector<double>& joint_weight);
+
+/// solve_weighted with the deviations of its parameters.
 estimate weighted_fit(const observation& rows, const std::vector<double>& joint_weight);
 
 /// Fills covariance, correlation_length and std_white of `result`, for chi that zeroes W' score: qr is the factor of

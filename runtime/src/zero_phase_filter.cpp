@@ -60,23 +60,35 @@ void filter_both_ways(const second_order_sections& filter, lane_buffer& buffer) 
     }
 }
 
-/// Writes signal `column` into one lane, with odd reflection 2 x_end - x at both ends.
-void extend(const signal_columns& signals, Eigen::Index column, Eigen::Index pad, lane_buffer& buffer,
-            int lane_number) {
+/// Writes signals columns[first..first+count-1] into the lanes, with odd reflection 2 x_end - x at both ends. Row by
+/// row, since the columns of a row-major matrix lie side by side.
+void extend(const signal_columns& signals, const Eigen::Index* columns, size_t count, Eigen::Index pad,
+            lane_buffer& buffer) {
     const Eigen::Index last = signals.rows() - 1;
+    for (Eigen::Index row = 0; row <= last; ++row) {
+        for (size_t k = 0; k < count; ++k) {
+            buffer(static_cast<Eigen::Index>(k), pad + row) = signals(row, columns[k]);
+        }
+    }
     for (Eigen::Index k = 1; k <= pad; ++k) {
-        buffer(lane_number, pad - k) = 2.0 * signals(0, column) - signals(k, column);
-        buffer(lane_number, pad + last + k) = 2.0 * signals(last, column) - signals(last - k, column);
+        buffer.col(pad - k) = 2.0 * buffer.col(pad) - buffer.col(pad + k);
+        buffer.col(pad + last + k) = 2.0 * buffer.col(pad + last) - buffer.col(pad + last - k);
     }
-    for (Eigen::Index k = 0; k <= last; ++k) {
-        buffer(lane_number, pad + k) = signals(k, column);
+}
+
+bool is_zero(const signal_columns& signals, Eigen::Index column) {
+    for (Eigen::Index row = 0; row < signals.rows(); ++row) {
+        if (signals(row, column) != 0.0) {
+            return false;
+        }
     }
+    return true;
 }
 
 std::vector<Eigen::Index> nonzero_columns(const signal_columns& signals) {
     std::vector<Eigen::Index> columns;
     for (Eigen::Index column = 0; column < signals.cols(); ++column) {
-        if ((signals.col(column).array() != 0.0).any()) {
+        if (!is_zero(signals, column)) {
             columns.push_back(column);
         }
     }
@@ -86,7 +98,7 @@ std::vector<Eigen::Index> nonzero_columns(const signal_columns& signals) {
 }  // namespace
 
 Eigen::Index padding(const second_order_sections& filter) {
-    return 3 * (filter.order + 1);
+    return Eigen::Index{3} * (filter.order + 1);
 }
 
 Eigen::MatrixXd zero_phase_filter(const second_order_sections& filter, const signal_columns& signals,
@@ -102,9 +114,7 @@ Eigen::MatrixXd zero_phase_filter(const second_order_sections& filter, const sig
     lane_buffer buffer = lane_buffer::Zero(lanes, signals.rows() + 2 * pad);
     for (size_t first = 0; first < columns.size(); first += lanes) {
         const size_t count = std::min<size_t>(lanes, columns.size() - first);
-        for (size_t k = 0; k < count; ++k) {
-            extend(signals, columns[first + k], pad, buffer, static_cast<int>(k));
-        }
+        extend(signals, &columns[first], count, pad, buffer);
         filter_both_ways(filter, buffer);
         for (Eigen::Index row = 0; row < kept; ++row) {
             for (size_t k = 0; k < count; ++k) {

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cstdio>
@@ -86,7 +88,9 @@ TEST(EssentialParameters, DropsWhatIsNotThereAndKeepsWhatIsCertain) {
                 EXPECT_TRUE(holds(found.kept, c)) << "seed " << seed << ", column " << c;
             }
         }
-        EXPECT_LT(found.residual.relative_error, 1.01 * full.residual.relative_error);
+        // The squared residual of joint 1, the larger one, grows by k F (length) / rows at most, 5 * 2.2 * 9 / 800 = 12
+        // %; its root by 6 %.
+        EXPECT_LT(found.residual.relative_error, 1.06 * full.residual.relative_error);
         EXPECT_GT(found.p_value, 0.05);
         const double all = weighted_residual(rows, full.joint_deviation, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11});
         const double without = weighted_residual(rows, full.joint_deviation, {0, 1, 2, 3, 4, 5, 6, 7});
@@ -128,7 +132,7 @@ TEST(EssentialParameters, WithWhiteDeviationsIsTheClassicFTest) {
 
 TEST(EssentialParameters, PValueIsThatOfTheFDistributionOnEffectiveSamples) {
     // One parameter, estimate 1 +- 0.5: F = 4; 122 rows of correlation length 2 leave 61 - 1 = 60 degrees of freedom,
-    // and 1 - F(4; 1, 60) = 0.05003 (3 2-sided t of 2.0: scipy.stats.f.sf(4, 1, 60) = 0.0500330).
+    // and 1 - F(4; 1, 60) = scipy.stats.f.sf(4, 1, 60) = 0.0500330.
     observation rows;
     rows.dof = 1;
     rows.n_base = 1;

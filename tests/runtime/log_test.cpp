@@ -3,9 +3,10 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <functional>
+#include <iterator>
 #include <limits>
 #include <string>
 

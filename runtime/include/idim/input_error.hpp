@@ -25,12 +25,15 @@ class input_error : public std::runtime_error {
     static std::string describe(const input_location& where) {
         std::string text = where.file;
         if (where.line > 0) {
-            text += ":" + std::to_string(where.line);
+            text.append(":").append(std::to_string(where.line));
         }
         if (!text.empty()) {
-            text += ": ";
+            text.append(": ");
         }
-        return where.field.empty() ? text : text + where.field + ": ";
+        if (!where.field.empty()) {
+            text.append(where.field).append(": ");
+        }
+        return text;
     }
 
     input_location where_;

@@ -1,0 +1,211 @@
+#include "backend/cpp_body.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+namespace idim::generator {
+
+namespace {
+
+constexpr std::size_t line_width = 116;
+
+/// How tightly the printed text binds.
+enum class binding { sum, product, atom };
+
+struct printed {
+    std::string text;
+    binding tightness = binding::atom;
+};
+
+std::string array_of(symbol_role role) {
+    switch (role) {
+        case symbol_role::position:
+            return "q";
+        case symbol_role::velocity:
+            return "qd";
+        case symbol_role::acceleration:
+            return "qdd";
+        case symbol_role::torque:
+            return "tau";
+        case symbol_role::temperature:
+            return "temp";
+        default:
+            return "";
+    }
+}
+
+class cpp_printer {
+  public:
+    cpp_printer(const expression_graph& graph, const std::set<std::string>& reserved)
+        : graph_(graph), live_(graph.live()), uses_(graph.nodes().size(), 0), used_(reserved) {
+        count_uses();
+    }
+
+    std::vector<std::string> run() {
+        for (std::size_t id = 0; id < live_.size(); ++id) {
+            declare_parameter(static_cast<int>(id));
+        }
+        for (std::size_t id = 0; id < live_.size(); ++id) {
+            const graph_node& node = graph_.nodes()[id];
+            if (live_[id] && !is_leaf(node) && !node.name.empty()) {
+                define(static_cast<int>(id), node.name);
+            }
+        }
+        for (const graph_output& out : graph_.outputs()) {
+            owner_ = fmt::format("{}{}", out.array, out.index + 1);
+            declare_shared(out.value.id);
+            emit(fmt::format("{}[{}] = {};", out.array, out.index, with_sign(out.value)));
+        }
+        return std::move(lines_);
+    }
+
+  private:
+    static bool is_leaf(const graph_node& node) {
+        return node.kind == operation::constant || node.kind == operation::symbol;
+    }
+    static bool has_second(const graph_node& node) {
+        return node.kind != operation::function || node.function == function_kind::pow;
+    }
+
+    void count_uses() {
+        for (std::size_t id = 0; id < live_.size(); ++id) {
+            const graph_node& node = graph_.nodes()[id];
+            if (live_[id] && !is_leaf(node)) {
+                ++uses_[static_cast<std::size_t>(node.a.id)];
+                uses_[static_cast<std::size_t>(node.b.id)] += has_second(node) ? 1 : 0;
+            }
+        }
+        for (const graph_output& out : graph_.outputs()) {
+            ++uses_[static_cast<std::size_t>(out.value.id)];
+        }
+    }
+
+    std::string unique(const std::string& wanted) {
+        std::string name = wanted;
+        for (int i = 2; !used_.insert(name).second; ++i) {
+            name = fmt::format("{}_v{}", wanted, i);
+        }
+        return name;
+    }
+
+    void declare_parameter(int id) {
+        const graph_node& node = graph_.nodes()[static_cast<std::size_t>(id)];
+        if (!live_[static_cast<std::size_t>(id)] || node.kind != operation::symbol || node.role != symbol_role::parameter) {
+            return;
+        }
+        const graph_symbol& symbol = graph_.symbols()[static_cast<std::size_t>(node.symbol)];
+        variable_[id] = unique(symbol.name);
+        emit(fmt::format("const Scalar& {} = chi[{}];", variable_[id], symbol.index));
+    }
+
+    /// Gives every shared, unnamed node below `id` a variable before the line that needs it.
+    void declare_shared(int id) {
+        const graph_node& node = graph_.nodes()[static_cast<std::size_t>(id)];
+        if (is_leaf(node) || variable_.count(id) != 0) {
+            return;
+        }
+        declare_operands(node);
+        if (uses_[static_cast<std::size_t>(id)] > 1) {
+            define(id, fmt::format("{}_t{}", owner_, ++temporaries_[owner_]));
+        }
+    }
+
+    void declare_operands(const graph_node& node) {
+        declare_shared(node.a.id);
+        if (has_second(node)) {
+            declare_shared(node.b.id);
+        }
+    }
+
+    void define(int id, const std::string& wanted) {
+        const graph_node& node = graph_.nodes()[static_cast<std::size_t>(id)];
+        if (!node.name.empty()) {
+            owner_ = node.name;
+        }
+        declare_operands(node);
+        const std::string text = expression(node).text;
+        const std::string name = unique(wanted);
+        emit(fmt::format("const Scalar {} = {};", name, text));
+        variable_[id] = name;
+    }
+
+    printed leaf(const graph_node& node) const {
+        if (node.kind == operation::constant) {
+            return {fmt::format("Scalar({})", to_decimal(node.value))};
+        }
+        const graph_symbol& symbol = graph_.symbols()[static_cast<std::size_t>(node.symbol)];
+        const std::string array = array_of(symbol.role);
+        return {array.empty() ? symbol.name : fmt::format("{}[{}]", array, symbol.index)};
+    }
+
+    printed operand(int id) const {
+        const auto variable = variable_.find(id);
+        if (variable != variable_.end()) {
+            return {variable->second};
+        }
+        const graph_node& node = graph_.nodes()[static_cast<std::size_t>(id)];
+        return is_leaf(node) ? leaf(node) : expression(node);
+    }
+
+    /// Text of an operand, in parentheses unless it binds at least as tightly as `least`.
+    std::string inside(int id, binding least) const {
+        const printed value = operand(id);
+        return value.tightness < least ? "(" + value.text + ")" : value.text;
+    }
+
+    std::string with_sign(signed_node value) const {
+        return value.negative ? "-" + inside(value.id, binding::atom) : operand(value.id).text;
+    }
+
+    printed expression(const graph_node& node) const {
+        switch (node.kind) {
+            case operation::add:
+                return {inside(node.a.id, binding::sum) + (node.b.negative ? " - " : " + ") + inside(node.b.id, binding::product),
+                        binding::sum};
+            case operation::multiply:
+                return {inside(node.a.id, binding::product) + " * " + inside(node.b.id, binding::atom), binding::product};
+            case operation::divide:
+                return {inside(node.a.id, binding::product) + " / " + inside(node.b.id, binding::atom), binding::product};
+            default:
+                break;
+        }
+        std::string arguments = with_sign(node.a);
+        if (has_second(node)) {
+            arguments += ", " + with_sign(node.b);
+        }
+        return {fmt::format("{}({})", to_string(node.function), arguments)};
+    }
+
+    /// Breaks long statements at blanks, which only stand around operators.
+    void emit(const std::string& statement) {
+        std::string rest = statement;
+        std::string text;
+        while (rest.size() > line_width) {
+            const std::size_t at = rest.rfind(' ', line_width);
+            if (at == std::string::npos || at < 16) {
+                break;
+            }
+            text += rest.substr(0, at) + "\n        ";
+            rest = "    " + rest.substr(at + 1);
+        }
+        lines_.push_back(text + rest);
+    }
+
+    const expression_graph& graph_;
+    std::vector<bool> live_;
+    std::vector<int> uses_;
+    std::set<std::string> used_;
+    std::map<int, std::string> variable_;
+    std::map<std::string, int> temporaries_;
+    std::string owner_;
+    std::vector<std::string> lines_;
+};
+
+}  // namespace
+
+std::vector<std::string> print_cpp(const expression_graph& graph, const std::set<std::string>& reserved) {
+    return cpp_printer(graph, reserved).run();
+}
+
+}  // namespace idim::generator

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+
+#include "backend/template_context.hpp"
+#include "base_parameters/base_parameter_set.hpp"
+#include "description/effect_description.hpp"
+#include "description/robot_description.hpp"
+
+namespace idim::generator {
+
+/// Operations of the four models users compare generators by.
+struct model_operations {
+    operation_count inverse_dynamics, regressor, mass_matrix, forward_dynamics;
+};
+
+/// Everything derived for one robot.
+struct robot_model {
+    robot_description description;
+    std::vector<effect_description> effects;  ///< one per description.effects
+    kinematic_tree tree;
+    standard_parameters parameters;
+    base_parameter_set base;
+};
+
+/// Derives all models of a robot and lays them out for the templates. `operations` receives the counts.
+template_context build_context(const robot_model& model, const std::string& version, const std::string& input_hash,
+                               model_operations& operations);
+
+/// Counts for the same robot without its effects.
+model_operations count_rigid(const robot_model& rigid);
+
+}  // namespace idim::generator

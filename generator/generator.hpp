@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "emit/template_renderer.hpp"
+#include "graph/operation_count.hpp"
+#include "idim/input_error.hpp"
+
+/// The generator as one call: description -> kinematic tree -> symbolic model -> base parameters -> expression graph -> template
+/// context -> files. No GiNaC here, so that users of this header do not see it.
+namespace idim::generator {
+
+struct base_report {
+    std::string robot;
+    std::vector<parameter_context> parameters;
+    int standard = 0;
+    std::vector<std::string> without_effect;
+    int qr_rank = 0;
+    double smallest_kept_pivot = 0.0;
+    double largest_dropped_pivot = 0.0;
+    int exact_rank = 0;
+    int exact_points = 0;
+};
+
+struct operation_table {
+    operation_count inverse_dynamics, regressor, mass_matrix, forward_dynamics;
+};
+
+/// A model of one robot, in memory.
+struct generated_model {
+    std::string robot;
+    std::string input_hash;
+    base_report base;
+    std::vector<joint_context> joints;
+    std::vector<rendered_file> files;  ///< manifest.json last
+    operation_table operations;
+    operation_table rigid_operations;
+    double seconds = 0.0;
+};
+
+/// Base parameters of a robot description. `templates` is the folder that holds effects/ and cpp/. Throws input_error, and
+/// rank_disagreement (a std::runtime_error) where the rank cannot be proven.
+base_report find_base(const std::string& robot_file, const std::string& templates);
+
+/// All models of a robot description as C++ sources.
+generated_model generate(const std::string& robot_file, const std::string& templates);
+
+/// The version of idim.
+const char* version();
+
+}  // namespace idim::generator

@@ -1,0 +1,91 @@
+#include <fmt/format.h>
+
+#include "command.hpp"
+#include "emit/model_folder.hpp"
+#include "generator.hpp"
+#include "resources.hpp"
+
+namespace idim::cli {
+
+namespace {
+
+struct generate_options {
+    std::string robot;
+    std::string folder;
+    bool check = false;
+    std::string json_file;
+};
+
+json to_json(const generator::operation_table& table) {
+    const auto count = [](const generator::operation_count& c) {
+        return json{{"mul", c.mul}, {"add", c.add}, {"div", c.div}};
+    };
+    return {{"inverse_dynamics", count(table.inverse_dynamics)},
+            {"regressor", count(table.regressor)},
+            {"mass_matrix", count(table.mass_matrix)},
+            {"forward_dynamics", count(table.forward_dynamics)}};
+}
+
+json to_json(const generator::generated_model& model) {
+    json files = json::array();
+    for (const generator::rendered_file& file : model.files) {
+        files.push_back(file.name);
+    }
+    json operations = to_json(model.operations);
+    operations["rigid"] = to_json(model.rigid_operations);
+    return {{"robot", model.robot},
+            {"input_hash", model.input_hash},
+            {"files", files},
+            {"seconds", model.seconds},
+            {"operations", operations}};
+}
+
+void print_operations(const char* name, const generator::operation_count& all, const generator::operation_count& rigid) {
+    fmt::print("  {:<17} {:>4} mul {:>4} add {:>2} div   (rigid links alone: {} mul {} add {} div)\n", name, all.mul, all.add,
+               all.div, rigid.mul, rigid.add, rigid.div);
+}
+
+void print(const generator::generated_model& model) {
+    fmt::print("{}: {} joints, {} base parameters, input {}\n", model.robot, model.joints.size(), model.base.parameters.size(),
+               model.input_hash);
+    print_operations("inverse dynamics", model.operations.inverse_dynamics, model.rigid_operations.inverse_dynamics);
+    print_operations("regressor", model.operations.regressor, model.rigid_operations.regressor);
+    print_operations("mass matrix", model.operations.mass_matrix, model.rigid_operations.mass_matrix);
+    print_operations("forward dynamics", model.operations.forward_dynamics, model.rigid_operations.forward_dynamics);
+}
+
+int check_folder(const generator::generated_model& model, const generate_options& options) {
+    const std::vector<std::string> differences = generator::compare_model(model.files, options.folder);
+    for (const std::string& line : differences) {
+        fmt::print("{}/{}\n", options.folder, line);
+    }
+    return differences.empty() ? exit_done : exit_check_said_no;
+}
+
+int run(const generate_options& options) {
+    const generator::generated_model model = generator::generate(options.robot, templates_folder());
+    if (options.check) {
+        return check_folder(model, options);
+    }
+    const std::vector<std::string> changed = generator::write_model(model.files, options.folder);
+    write_json(options.json_file, to_json(model));
+    if (prints_text(options.json_file)) {
+        print(model);
+        fmt::print("{} files in {}, {} changed\n", model.files.size(), options.folder, changed.size());
+    }
+    return exit_done;
+}
+
+}  // namespace
+
+void add_generate_command(CLI::App& app, action& chosen) {
+    const auto options = std::make_shared<generate_options>();
+    CLI::App* command = app.add_subcommand("generate", "C++ code of the robot's models");
+    command->add_option("robot", options->robot, "robot description (.yaml)")->required();
+    command->add_option("-o,--output", options->folder, "folder for the code")->required();
+    command->add_flag("--check", options->check, "write nothing; exit 1 where the folder is not what would be written");
+    add_json_option(*command, options->json_file);
+    command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+}
+
+}  // namespace idim::cli

@@ -1,0 +1,58 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+
+#include "command.hpp"
+#include "idim/input_error.hpp"
+
+namespace {
+
+/// A message is one line, whatever it quotes.
+void complain(const std::string& message) {
+    std::string line = message;
+    for (char& c : line) {
+        c = c == '\n' || c == '\r' ? ' ' : c;
+    }
+    fmt::print(stderr, "idim: {}\n", line);
+}
+
+int run(const idim::cli::action& chosen) {
+    using namespace idim::cli;
+    try {
+        return chosen();
+    } catch (const idim::input_error& error) {
+        complain(error.what());
+        return exit_bad_input;
+    } catch (const idim::data_error& error) {
+        complain(error.what());
+        return exit_data_cannot_answer;
+    } catch (const std::exception& error) {
+        complain(error.what());
+        return exit_check_said_no;
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    using namespace idim::cli;
+    CLI::App app("idim " IDIM_VERSION ": symbolic robot models, generated code, identification", "idim");
+    app.set_version_flag("--version", IDIM_VERSION);
+    app.require_subcommand(1);
+    action chosen;
+    add_base_command(app, chosen);
+    add_generate_command(app, chosen);
+    add_simulate_command(app, chosen);
+    add_identify_command(app, chosen);
+    add_validate_command(app, chosen);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& asked) {
+        return app.exit(asked);
+    } catch (const CLI::ParseError& error) {
+        complain(std::string(error.what()) + " (see idim --help)");
+        return exit_bad_input;
+    }
+    return run(chosen);
+}

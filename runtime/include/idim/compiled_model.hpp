@@ -1,0 +1,46 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "idim/model_interface.h"
+
+namespace idim {
+
+/// A source file of a generated model, in memory.
+struct model_source {
+    std::string name;  ///< relative, such as "regressor.hpp" or "idim/model_interface.h"
+    std::string text;
+};
+
+/// A generated model, compiled by the system compiler and loaded into this process for as long as the object lives.
+class compiled_model {
+  public:
+    explicit compiled_model(std::shared_ptr<void> library, const idim_model_interface* model)
+        : library_(std::move(library)), model_(model) {}
+
+    const idim_model_interface& interface() const { return *model_; }
+
+  private:
+    std::shared_ptr<void> library_;
+    const idim_model_interface* model_;
+};
+
+/// Where and how models are compiled; every field has a default.
+struct compile_options {
+    std::string cache;     ///< folder; default $XDG_CACHE_HOME/idim, else $HOME/.cache/idim, else a private temporary folder
+    std::string compiler;  ///< default $CXX, else the first of c++, g++, clang++ on the PATH
+};
+
+/// Compiles the .cpp files of `sources` into one shared object and loads it, or takes it from the cache.
+///
+/// A cache entry's key is the SHA-256 of all sources, the compiler's path and version and the flags. An entry is used only if the
+/// folder and its files belong to this user and no one else may write them, its sources are these byte for byte, the shared
+/// object's hash is the recorded one, and the loaded model has this ABI and `input_hash`; anything else is rebuilt. Two
+/// processes may ask for the same entry at once.
+/// Throws std::runtime_error with the compiler's message where it fails, or where there is no compiler.
+compiled_model compile_model(const std::vector<model_source>& sources, const std::string& input_hash,
+                             const compile_options& options = {});
+
+}  // namespace idim

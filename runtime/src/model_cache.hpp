@@ -1,0 +1,56 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "file_descriptor.hpp"
+
+namespace idim {
+
+/// A new folder for this user alone, removed with all it holds at the end of the scope. Throws std::system_error.
+class private_folder {
+  public:
+    /// `prefix` is the path up to the part that makes it unique.
+    explicit private_folder(const std::filesystem::path& prefix);
+    ~private_folder();
+    private_folder(const private_folder&) = delete;
+    private_folder& operator=(const private_folder&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+/// The folder `wanted`, else $XDG_CACHE_HOME/idim, else $HOME/.cache/idim; made if it is missing. Nothing if none is
+/// named, or the one named is not trusted or cannot be written. A relative path in a variable is ignored
+/// [XDG Base Directory Specification 0.8].
+std::optional<std::filesystem::path> usable_cache(const std::string& wanted);
+
+/// One entry of a cache folder, held against other processes and threads for as long as the object lives.
+class cache_slot {
+  public:
+    /// Waits until no one else holds `key`. Throws std::system_error.
+    cache_slot(std::filesystem::path cache, std::string key);
+    ~cache_slot();
+    cache_slot(const cache_slot&) = delete;
+    cache_slot& operator=(const cache_slot&) = delete;
+
+    std::filesystem::path entry() const { return cache_ / key_; }
+    /// Removes the entry; of a link, the link. Throws std::system_error.
+    void clear() const;
+    /// Replaces the entry by a folder that `fill` has filled elsewhere: there is a whole entry or none. Throws what
+    /// `fill` throws, and std::system_error.
+    void replace(const std::function<void(const std::filesystem::path&)>& fill) const;
+
+  private:
+    void remove_abandoned() const;
+
+    std::filesystem::path cache_;
+    std::string key_;
+    file_descriptor lock_;
+};
+
+}  // namespace idim
