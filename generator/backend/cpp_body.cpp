@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
+#include <stdexcept>
+#include <utility>
 
 namespace idim::generator {
 
@@ -17,23 +20,6 @@ struct printed {
     std::string text;
     binding tightness = binding::atom;
 };
-
-std::string array_of(symbol_role role) {
-    switch (role) {
-        case symbol_role::position:
-            return "q";
-        case symbol_role::velocity:
-            return "qd";
-        case symbol_role::acceleration:
-            return "qdd";
-        case symbol_role::torque:
-            return "tau";
-        case symbol_role::temperature:
-            return "temp";
-        default:
-            return "";
-    }
-}
 
 class cpp_printer {
   public:
@@ -52,7 +38,11 @@ class cpp_printer {
                 define(static_cast<int>(id), node.name);
             }
         }
-        for (const graph_output& out : graph_.outputs()) {
+        std::vector<graph_output> outputs = graph_.outputs();
+        std::stable_sort(outputs.begin(), outputs.end(), [](const graph_output& a, const graph_output& b) {
+            return std::pair(a.array, a.index) < std::pair(b.array, b.index);
+        });
+        for (const graph_output& out : outputs) {
             owner_ = fmt::format("{}{}", out.array, out.index + 1);
             declare_shared(out.value.id);
             emit(fmt::format("{}[{}] = {};", out.array, out.index, with_sign(out.value)));
@@ -135,8 +125,8 @@ class cpp_printer {
             return {fmt::format("Scalar({})", to_decimal(node.value))};
         }
         const graph_symbol& symbol = graph_.symbols()[static_cast<std::size_t>(node.symbol)];
-        const std::string array = array_of(symbol.role);
-        return {array.empty() ? symbol.name : fmt::format("{}[{}]", array, symbol.index)};
+        const std::string argument = argument_name(symbol.role);
+        return {symbol.role == symbol_role::time ? argument : fmt::format("{}[{}]", argument, symbol.index)};
     }
 
     printed operand(int id) const {
@@ -203,6 +193,31 @@ class cpp_printer {
 };
 
 }  // namespace
+
+std::string argument_name(symbol_role role) {
+    switch (role) {
+        case symbol_role::parameter:
+            return "chi";
+        case symbol_role::standard:
+            return "standard";
+        case symbol_role::time:
+            return "t";
+        case symbol_role::temperature:
+            return "temp";
+        case symbol_role::position:
+            return "q";
+        case symbol_role::velocity:
+            return "qd";
+        case symbol_role::acceleration:
+            return "qdd";
+        case symbol_role::torque:
+            return "tau";
+        case symbol_role::constant:
+        case symbol_role::intermediate:
+            break;
+    }
+    throw std::logic_error("a leaf of this role is no argument");
+}
 
 std::vector<std::string> print_cpp(const expression_graph& graph, const std::set<std::string>& reserved) {
     return cpp_printer(graph, reserved).run();

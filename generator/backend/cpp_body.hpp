@@ -8,6 +8,9 @@
 
 namespace idim::generator {
 
+/// Name of the argument that leaves of a role are read from: "q", "chi".
+std::string argument_name(symbol_role role);
+
 /// Prints a graph as C++ statements over a type `Scalar`.
 ///
 /// Named nodes get a line of their own under that name; what is used more than once without a name is called after the first named node

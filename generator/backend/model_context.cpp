@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <set>
 
 #include "backend/cpp_body.hpp"
 #include "dynamics/dynamic_models.hpp"
@@ -60,13 +61,38 @@ std::vector<argument_context> arguments(const function_plan& plan, const robot_m
     for (const std::string& name : plan.inputs) {
         const bool unused = (name == "t" && !model.parameters.uses_time) || (name == "temp" && !model.parameters.uses_temperature);
         if (!unused) {
-            result.push_back({(name == "t" ? "const Scalar& " : "const Scalar* ") + name, meaning.at(name)});
+            result.push_back({name, (name == "t" ? "const Scalar& " : "const Scalar* ") + name, meaning.at(name), false, true});
         }
     }
     for (const std::string& name : plan.outputs) {
-        result.push_back({"Scalar* " + name, meaning.at(name)});
+        result.push_back({name, "Scalar* " + name, meaning.at(name), true, true});
     }
     return result;
+}
+
+/// Functions of <cmath> that the live part of a graph calls, in alphabetical order.
+std::vector<std::string> called_functions(const expression_graph& graph) {
+    std::set<std::string> names;
+    const std::vector<bool> live = graph.live();
+    for (std::size_t id = 0; id < live.size(); ++id) {
+        const graph_node& node = graph.nodes()[id];
+        if (live[id] && node.kind == operation::function && node.function != function_kind::sign) {
+            names.insert(to_string(node.function));
+        }
+    }
+    return {names.begin(), names.end()};
+}
+
+/// Arguments that the live part of a graph reads.
+std::set<std::string> arrays_read(const expression_graph& graph) {
+    std::set<std::string> names;
+    const std::vector<bool> live = graph.live();
+    for (std::size_t id = 0; id < live.size(); ++id) {
+        if (live[id] && graph.nodes()[id].kind == operation::symbol) {
+            names.insert(argument_name(graph.nodes()[id].role));
+        }
+    }
+    return names;
 }
 
 /// Names that mean something else in the body: arguments, the scalar type and the functions it uses.
@@ -78,10 +104,19 @@ std::set<std::string> reserved_names() {
     return names;
 }
 
+function_context lay_out(const function_plan& plan, const robot_model& model, const expression_graph& graph) {
+    function_context function{plan.name, plan.summary, arguments(plan, model), count_operations(graph), called_functions(graph),
+                              print_cpp(graph, reserved_names())};
+    const std::set<std::string> read = arrays_read(graph);
+    for (argument_context& argument : function.arguments) {
+        argument.used = argument.is_output || read.count(argument.name) != 0;
+    }
+    return function;
+}
+
 function_context derive(const function_plan& plan, const robot_model& model) {
-    const expression_graph graph =
-        build_graph(plan.build(model.tree, model.parameters, model.base.selection()), constants_as::values);
-    return {plan.name, plan.summary, arguments(plan, model), count_operations(graph), print_cpp(graph, reserved_names())};
+    return lay_out(plan, model,
+                   build_graph(plan.build(model.tree, model.parameters, model.base.selection()), constants_as::values));
 }
 
 /// chi = standard parameters regrouped: what a-priori values of links become.
@@ -90,7 +125,7 @@ function_context derive_regrouping(const robot_model& model) {
     for (std::size_t k = 0; k < model.base.parameters.size(); ++k) {
         const base_parameter& base = model.base.parameters[k];
         const auto standard = [&](std::size_t p) {
-            return graph.symbol({fmt::format("standard[{}]", p), symbol_role::time, static_cast<int>(p)});
+            return graph.symbol({model.parameters.all[p].name, symbol_role::standard, static_cast<int>(p)});
         };
         signed_node sum = standard(base.standard);
         for (const regrouped_term& term : base.regrouped) {
@@ -101,7 +136,7 @@ function_context derive_regrouping(const robot_model& model) {
         graph.output("chi", static_cast<int>(k), sum);
     }
     function_plan plan{"regroup", "Base parameters of a robot whose standard parameters are known.", {"standard"}, {"chi"}, {}};
-    return {plan.name, plan.summary, arguments(plan, model), count_operations(graph), print_cpp(graph, reserved_names())};
+    return lay_out(plan, model, graph);
 }
 
 std::vector<joint_context> joints(const robot_model& model) {

@@ -9,8 +9,11 @@ namespace idim::generator {
 
 /// One array argument of a generated function.
 struct argument_context {
+    std::string name;
     std::string declaration;  ///< "const Scalar* q"
     std::string meaning;      ///< "q [2] joint positions [rad or m]"
+    bool is_output = false;
+    bool used = true;         ///< the body reads or writes it
 };
 
 /// One generated function, ready to be printed.
@@ -19,6 +22,7 @@ struct function_context {
     std::string summary;  ///< one sentence
     std::vector<argument_context> arguments;
     operation_count operations;
+    std::vector<std::string> functions;   ///< of <cmath> in the body: "cos", "sin"
     std::vector<std::string> statements;  ///< one per line (or several lines joined), each ending in ';'
 };
 

@@ -49,7 +49,8 @@ class graph_builder {
         }
         for (const assignment& step : model.assignments()) {
             const signed_node value = build(step.body);
-            graph_.name(value, step.symbol.get_name());
+            // A node holds a value without its sign: "n" behind a name says that it is minus that quantity.
+            graph_.name(value, step.symbol.get_name() + (value.negative ? "n" : ""));
             add_symbol(step.symbol, value);
         }
         for (const symbolic_output& out : model.outputs()) {

@@ -41,8 +41,10 @@ class context_data {
         }
         data_.set(key, entries);
     }
-    void set_partial(const std::string& key, const std::string& text) {
+    /// A partial stands on a line of its own, so its last line break is the template's.
+    void set_partial(const std::string& key, std::string text) {
         keys_.insert(key);
+        text.erase(text.find_last_not_of('\n') + 1);
         data_.set(key, data{kainjow::mustache::partial{[text] { return text; }}});
     }
     const data& values() const { return data_; }
@@ -129,12 +131,17 @@ rendered_file function_file(const template_context& context, const function_cont
     std::vector<std::string> declarations;
     for (const argument_context& argument : function.arguments) {
         meanings.emplace_back().set("meaning", argument.meaning);
-        declarations.push_back("[[maybe_unused]] " + argument.declaration);
+        declarations.push_back((argument.used ? "" : "[[maybe_unused]] ") + argument.declaration);
     }
     values.set("arguments", meanings);
     const std::string indent = ",\n" + std::string(function.name.size() + 6, ' ');
     values.set("argument_list", fmt::format("{}", fmt::join(declarations, indent)));
     values.set("statements", texts(function.statements));
+    std::vector<std::string> usings;
+    for (const std::string& name : function.functions) {
+        usings.push_back("std::" + name);
+    }
+    values.set("using_functions", usings.empty() ? std::vector<context_data>{} : texts({fmt::format("{}", fmt::join(usings, ", "))}));
     return {function.name + ".hpp", render(folder, "function.hpp.mustache", values)};
 }
 

@@ -16,6 +16,7 @@ namespace idim::generator {
 enum class symbol_role {
     constant,
     parameter,
+    standard,
     time,
     temperature,
     position,

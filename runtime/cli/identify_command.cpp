@@ -1,2 +1,188 @@
-#include "command.hpp"
-namespace idim::cli { void add_identify_command(CLI::App&, action&) {} }
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "idim/estimate.hpp"
+#include "idim/input_error.hpp"
+#include "measured_motion.hpp"
+
+namespace idim::cli {
+
+namespace {
+
+struct identify_options {
+    std::string robot;
+    std::vector<std::string> logs;
+    std::string method = "wls";
+    filter_request filter;
+    std::string json_file;
+};
+
+const std::map<std::string, least_squares_method>& methods() {
+    static const std::map<std::string, least_squares_method> names = {
+        {"ols", least_squares_method::ols}, {"wls", least_squares_method::wls}, {"irls", least_squares_method::irls}};
+    return names;
+}
+
+/// What the command knows at the end.
+struct identification {
+    loaded_robot robot;
+    filter_choice filter;
+    observation rows;
+    estimate result;
+    essential_parameters essential;
+};
+
+double relative_percent(double std, double value) { return 100.0 * std / std::abs(value); }
+
+json parameters_json(const identification& found) {
+    json list = json::array();
+    const Eigen::VectorXd std = found.result.deviations();
+    for (Eigen::Index k = 0; k < found.result.chi.size(); ++k) {
+        const auto& parameter = found.robot.generated.base.parameters[static_cast<std::size_t>(k)];
+        list.push_back({{"name", parameter.name},
+                        {"value", found.result.chi[k]},
+                        {"std", std[k]},
+                        {"relative_std_percent", finite(relative_percent(std[k], found.result.chi[k]))},
+                        {"unit", parameter.unit},
+                        {"regroups", parameter.regroups}});
+    }
+    return list;
+}
+
+json iterations_json(const estimate& result) {
+    json list = json::array();
+    for (const iteration& step : result.iterations) {
+        list.push_back({{"parameters", std::vector<double>(step.chi.begin(), step.chi.end())},
+                        {"relative_error", finite(step.relative_error)}});
+    }
+    return list;
+}
+
+json essential_json(const identification& found) {
+    json kept = json::array();
+    for (const int k : found.essential.kept) {
+        kept.push_back({{"name", found.robot.generated.base.parameters[static_cast<std::size_t>(k)].name},
+                        {"value", found.essential.chi[k]},
+                        {"std", found.essential.std[k]}});
+    }
+    return {{"parameters", kept},
+            {"f_statistic", finite(found.essential.f_statistic)},
+            {"p_value", finite(found.essential.p_value)},
+            {"residual", to_json(found.essential.residual, found.robot)}};
+}
+
+json names_json(const identification& found, const std::vector<int>& columns) {
+    json names = json::array();
+    for (const int k : columns) {
+        names.push_back(found.robot.generated.base.parameters[static_cast<std::size_t>(k)].name);
+    }
+    return names;
+}
+
+json identification_json(const identification& found, const std::string& method) {
+    json rates = json::array();
+    json files = json::array();
+    for (const observation_block& block : found.rows.blocks) {
+        rates.push_back(block.rate);
+        files.push_back(block.file);
+    }
+    const double full_rate = found.rows.blocks.front().rate * found.filter.decimation;
+    return {{"robot", found.robot.generated.robot},
+            {"input_hash", found.robot.generated.input_hash},
+            {"method", method},
+            {"converged", found.result.converged},
+            {"message", found.result.message},
+            {"logs", files},
+            {"filter", to_json(found.filter)},
+            {"band", found.filter.band(full_rate)},
+            {"row_rates", rates},
+            {"iterations", iterations_json(found.result)},
+            {"samples", found.result.samples},
+            {"rank", found.result.rank},
+            {"condition_number", finite(found.result.condition_number)},
+            {"scaled_condition_number", finite(found.result.scaled_condition_number)},
+            {"correlation_length", found.result.correlation_length},
+            {"not_excited", names_json(found, found.result.not_excited)},
+            {"parameters", parameters_json(found)},
+            {"essential", found.result.chi.size() > 0 ? essential_json(found) : json(nullptr)},
+            {"residual", found.result.chi.size() > 0 ? to_json(found.result.residual, found.robot) : json(nullptr)}};
+}
+
+void print_parameters(const identification& found) {
+    const Eigen::VectorXd std = found.result.deviations();
+    fmt::print("  {:<10} {:>13} {:>11} {:>8}  {}\n", "parameter", "value", "std", "%", "unit");
+    for (Eigen::Index k = 0; k < found.result.chi.size(); ++k) {
+        const auto& parameter = found.robot.generated.base.parameters[static_cast<std::size_t>(k)];
+        fmt::print("  {:<10} {:>13.6g} {:>11.3g} {:>8.2f}  {}\n", parameter.name, found.result.chi[k], std[k],
+                   relative_percent(std[k], found.result.chi[k]), parameter.unit);
+    }
+}
+
+void print_identification(const identification& found, const std::string& method) {
+    const estimate& result = found.result;
+    fmt::print("{}: {}, {} rows, condition number {:.3g} ({:.3g} with columns scaled)\n", found.robot.generated.robot, method,
+               result.samples, result.condition_number, result.scaled_condition_number);
+    fmt::print("  {}\n", found.filter.reason);
+    print_parameters(found);
+    print(result.residual, found.robot);
+    fmt::print("  residual correlated over {:.1f} rows (by joint); the deviations account for it\n",
+               fmt::join(result.correlation_length, " "));
+    std::vector<std::string> dropped;
+    for (const int k : found.essential.dropped) {
+        dropped.push_back(found.robot.generated.base.parameters[static_cast<std::size_t>(k)].name);
+    }
+    fmt::print("  essential: {} of {} parameters, relative error {:.2f} %; without: {}\n", found.essential.kept.size(),
+               result.chi.size(), 100.0 * found.essential.residual.relative_error,
+               dropped.empty() ? "none" : fmt::format("{}", fmt::join(dropped, " ")));
+}
+
+/// One line that says what the data lacks.
+std::string explain(const identification& found, const std::vector<std::string>& at_rest) {
+    std::vector<std::string> names;
+    for (const int k : found.result.not_excited) {
+        names.push_back(found.robot.generated.base.parameters[static_cast<std::size_t>(k)].name);
+    }
+    std::string text = fmt::format("the data does not excite {}: rank {} of {}", fmt::join(names, " "), found.result.rank,
+                                   found.robot.generated.base.parameters.size());
+    if (!at_rest.empty()) {
+        text += fmt::format("; joint {} never moves", fmt::join(at_rest, ", "));
+    }
+    return text;
+}
+
+int run(const identify_options& options) {
+    loaded_robot robot = load_robot(options.robot);
+    const std::vector<idim::log> logs = read_logs(robot, options.logs);
+    const std::vector<std::string> at_rest = joints_at_rest(robot, logs);
+    const filter_choice filter = choose_filter(logs, options.filter);
+    observation rows = observe_logs(robot, logs, filter);
+    estimate result = least_squares(rows, methods().at(options.method));
+    essential_parameters essential;
+    if (result.chi.size() > 0) {
+        essential = find_essential(rows, result);
+    }
+    const identification found{std::move(robot), filter, std::move(rows), std::move(result), std::move(essential)};
+    write_json(options.json_file, identification_json(found, options.method));
+    if (found.result.chi.size() == 0) {
+        throw data_error(found.result.not_excited.empty() ? found.result.message : explain(found, at_rest));
+    }
+    if (prints_text(options.json_file)) {
+        print_identification(found, options.method);
+    }
+    return exit_done;
+}
+
+}  // namespace
+
+void add_identify_command(CLI::App& app, action& chosen) {
+    const auto options = std::make_shared<identify_options>();
+    CLI::App* command = app.add_subcommand("identify", "base parameters from measured motion, with deviations");
+    command->add_option("robot", options->robot, "robot description (.yaml)")->required();
+    command->add_option("logs", options->logs, "logs (.csv, .csv.gz)")->required();
+    command->add_option("--method", options->method, "ols, wls (default) or irls")->check(CLI::IsMember({"ols", "wls", "irls"}));
+    add_filter_options(*command, options->filter);
+    add_json_option(*command, options->json_file);
+    command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+}
+
+}  // namespace idim::cli

@@ -15,7 +15,7 @@ std::string path_of(int number) {
 }
 
 /// The loader knows a library by its path and would give this one for the next file of the same number. So the number
-/// stays taken where the library outlives its handle, as one with a unique symbol (STB_GNU_UNIQUE) does.
+/// stays taken where the library outlives its handle, as one linked with -z nodelete does.
 void unload(void* handle, int number) {
     file_descriptor file(number);
     dlclose(handle);

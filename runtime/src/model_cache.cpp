@@ -40,20 +40,19 @@ std::optional<std::filesystem::path> named_cache(const std::string& wanted) {
     if (const auto folder = absolute_path_in("XDG_CACHE_HOME")) {
         return plain(*folder / "idim");
     }
-    if (const auto folder = absolute_path_in("HOME")) {
-        return plain(*folder / ".cache" / "idim");
+    const auto home = absolute_path_in("HOME");
+    if (home && std::filesystem::is_directory(*home)) {  // of some accounts it is /nonexistent, and is to stay so
+        return plain(*home / ".cache" / "idim");
     }
     return std::nullopt;
 }
 
 file_descriptor lock_file(const std::filesystem::path& file) {
     file_descriptor lock(open(file.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, S_IRUSR | S_IWUSR));
-    int result = lock.is_open() ? 0 : -1;
-    do {
-        result = lock.is_open() ? flock(lock.number(), LOCK_EX) : -1;
-    } while (result != 0 && errno == EINTR);
-    if (result != 0) {
-        throw std::system_error(errno, std::generic_category(), file.string());
+    while (!lock.is_open() || flock(lock.number(), LOCK_EX) != 0) {
+        if (!lock.is_open() || errno != EINTR) {
+            throw std::system_error(errno, std::generic_category(), file.string());
+        }
     }
     return lock;
 }
@@ -101,10 +100,10 @@ void cache_slot::clear() const {
 }
 
 void cache_slot::replace(const std::function<void(const std::filesystem::path&)>& fill) const {
+    clear();
     remove_abandoned();
     const private_folder build(cache_ / (key_ + build_suffix));
     fill(build.path());
-    clear();
     std::filesystem::rename(build.path(), entry());
 }
 

@@ -41,8 +41,8 @@ class cache_slot {
     std::filesystem::path entry() const { return cache_ / key_; }
     /// Removes the entry; of a link, the link. Throws std::system_error.
     void clear() const;
-    /// Replaces the entry by a folder that `fill` has filled elsewhere: there is a whole entry or none. Throws what
-    /// `fill` throws, and std::system_error.
+    /// Removes the entry, lets `fill` fill a new folder beside it, and makes that the entry: there is a whole entry or
+    /// none. Throws what `fill` throws, and std::system_error.
     void replace(const std::function<void(const std::filesystem::path&)>& fill) const;
 
   private:

@@ -12,11 +12,17 @@ namespace {
 
 constexpr const char* library_name = "model.so";
 constexpr const char* record_name = "model.sha256";
+constexpr const char* exports_name = "model.exports";
+
+// Everything else is hidden: the names in a generated header are inline variables, which g++ makes one per process
+// (STB_GNU_UNIQUE) even under RTLD_LOCAL, so that a second model of the same robot would read those of the first.
+// -Bsymbolic does not bind such symbols, and clang has no -fno-gnu-unique.
+constexpr const char* exports = "{ global: idim_model; local: *; };\n";
 
 bool is_inside(const std::string& name) {
     const std::filesystem::path path(name);
-    return path.is_relative() && path.has_filename() && path == path.lexically_normal() && *path.begin() != ".." &&
-           path != "." && name.find('\0') == std::string::npos;
+    const bool plain = path.lexically_normal().string() == name && name != "." && name.find('\0') == std::string::npos;
+    return plain && path.is_relative() && path.has_filename() && *path.begin() != "..";
 }
 
 bool is_compiled(const model_source& source) {
@@ -40,7 +46,7 @@ std::string with_length(const std::string& text) {
 }  // namespace
 
 void require_source_names(const std::vector<model_source>& sources) {
-    std::set<std::string> taken = {library_name, record_name};
+    std::set<std::string> taken = {library_name, record_name, exports_name};
     bool compiled = false;
     for (const model_source& source : sources) {
         if (!is_inside(source.name)) {
@@ -57,7 +63,8 @@ void require_source_names(const std::vector<model_source>& sources) {
 }
 
 std::string entry_key(const std::vector<model_source>& sources, const system_compiler& compiler) {
-    std::string text = with_length(std::to_string(IDIM_MODEL_ABI)) + with_length(compiler.version);
+    std::string text =
+        with_length(std::to_string(IDIM_MODEL_ABI)) + with_length(compiler.version) + with_length(exports);
     text += with_length(std::to_string(compiler.command.size()));
     for (const std::string& word : compiler.command) {
         text += with_length(word);
@@ -70,17 +77,17 @@ std::string entry_key(const std::vector<model_source>& sources, const system_com
 
 void build_entry(const std::filesystem::path& entry, const std::vector<model_source>& sources,
                  const system_compiler& compiler) {
-    std::vector<std::filesystem::path> files;
+    library_files files{entry, {}, entry / exports_name, entry / library_name};
+    write_private_file(files.exports, exports);
     for (const model_source& source : sources) {
         write_private_file(entry / source.name, source.text);
         if (is_compiled(source)) {
-            files.push_back(entry / source.name);
+            files.sources.push_back(entry / source.name);
         }
     }
-    const std::filesystem::path library = entry / library_name;
-    compile_library(compiler, entry, files, library);
-    make_file_private(library);
-    write_private_file(entry / record_name, sha256(read_trusted_file(library)) + "\n");
+    compile_library(compiler, files);
+    make_file_private(files.library);
+    write_private_file(entry / record_name, sha256(read_trusted_file(files.library)) + "\n");
 }
 
 std::string read_entry(const std::filesystem::path& entry, const std::vector<model_source>& sources) {

@@ -115,19 +115,24 @@ system_compiler find_compiler(const std::string& name) {
     return compiler;
 }
 
-void compile_library(const system_compiler& compiler, const std::filesystem::path& include,
-                     const std::vector<std::filesystem::path>& files, const std::filesystem::path& output) {
+void compile_library(const system_compiler& compiler, const library_files& files) {
     std::vector<std::string> command = compiler.command;
-    command.push_back("-I" + include.string());
+    command.push_back("-I" + files.include.string());
+    command.emplace_back("-Xlinker");
+    command.push_back("--version-script=" + files.exports.string());
     command.emplace_back("-o");
-    command.push_back(output.string());
-    for (const std::filesystem::path& file : files) {
-        command.push_back(file.string());
+    command.push_back(files.library.string());
+    for (const std::filesystem::path& source : files.sources) {
+        command.push_back(source.string());
     }
     const child_result result = run_child(command);
     if (result.exit_status != 0) {
         throw std::runtime_error(fmt::format("the model does not compile, exit status {}:\n{}command: {}",
                                              result.exit_status, first_lines(result.output), fmt::join(command, " ")));
+    }
+    if (!std::filesystem::exists(files.library)) {
+        throw std::runtime_error(
+            fmt::format("the compiler wrote no {}: {}", files.library.filename().string(), fmt::join(command, " ")));
     }
 }
 

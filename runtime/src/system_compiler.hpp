@@ -17,9 +17,15 @@ struct system_compiler {
 /// Throws std::runtime_error if there is none or it does not answer to --version.
 system_compiler find_compiler(const std::string& name);
 
-/// Compiles `files` into the shared object `output`, headers looked up in `include`.
+/// What a shared object is made from.
+struct library_files {
+    std::filesystem::path include;               ///< folder of the headers
+    std::vector<std::filesystem::path> sources;  ///< .cpp files
+    std::filesystem::path exports;               ///< version script of the linker: the symbols seen from outside
+    std::filesystem::path library;               ///< the shared object to write
+};
+
 /// Throws std::runtime_error with the first lines of the compiler's message and the command if it fails.
-void compile_library(const system_compiler& compiler, const std::filesystem::path& include,
-                     const std::vector<std::filesystem::path>& files, const std::filesystem::path& output);
+void compile_library(const system_compiler& compiler, const library_files& files);
 
 }  // namespace idim

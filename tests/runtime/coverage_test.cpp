@@ -1,5 +1,5 @@
-// Do the deviations tell the truth? Known parameters, known noise, 200 runs; the share of the intervals chi +- 1.96 std
-// that hold the true value.
+// Do the deviations tell the truth? Known parameters, known noise, 200 runs or more; the share of the intervals chi
+// +- 1.96 std that hold the true value.
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,6 @@
 
 namespace idim {
 namespace {
-
-constexpr int runs = 200;
 
 /// Adds noise to the rows of one block.
 using noise_maker = std::function<void(observation_block&, std::mt19937_64&)>;
@@ -45,7 +43,7 @@ struct coverage {
     Eigen::ArrayXd white = Eigen::ArrayXd::Zero(8);
 };
 
-coverage cover(const observation& clean, const noise_maker& add_noise, least_squares_method method) {
+coverage cover(const observation& clean, const noise_maker& add_noise, least_squares_method method, int runs = 200) {
     std::mt19937_64 random(20240607);
     coverage result;
     for (int run = 0; run < runs; ++run) {
@@ -117,20 +115,32 @@ TEST(Coverage, HoldsForReweightedLeastSquaresUnderHeavyTails) {
 
 TEST(Coverage, HoldsOnALogTooShortToForgiveTheBiasOfResiduals) {
     // Two blocks of 5 s for eight parameters, 200 rows per joint of about 22 that count: without the correction of the
-    // autocovariance for the fit the mean is 91.7 % (1000 runs), with it 93.8 %.
+    // autocovariance for the fit 91.7 % of the intervals hold the truth, with it 94 %. The mean over 1000 runs has a
+    // deviation of 0.75 % at the most.
     observation rows = test::scara_rows();
     rows.blocks = {test::scara_block(0.0, 100, 20.0, test::scara_truth()),
                    test::scara_block(100.0, 100, 20.0, test::scara_truth())};
-    expect_nominal(cover(rows, autoregressive(0.8), least_squares_method::wls).robust);
+    const coverage result = cover(rows, autoregressive(0.8), least_squares_method::wls, 1000);
+    expect_nominal(result.robust);
+    EXPECT_GT(result.robust.mean(), 92.8);
 }
 
 TEST(Coverage, HoldsWhenTheJointsFeelTheSameDisturbance) {
+    // The motor of axis 2 also carries the torque of axis 1, so that six parameters are seen twice with the same noise:
+    // taking the joints for independent would make their deviations too small by up to 1.4, their intervals hold in 84
+    // %.
+    observation rows = test::scara_rows();
+    for (observation_block& block : rows.blocks) {
+        block.W[1] += block.W[0];
+        block.Y[1] += block.Y[0];
+    }
     const noise_maker common = [](observation_block& block, std::mt19937_64& random) {
         const Eigen::VectorXd shared = test::ar1_noise(block.Y[0].size(), 0.8, random);
-        block.Y[0] += 0.3 * shared;
-        block.Y[1] += 0.02 * (0.8 * shared + 0.6 * test::ar1_noise(block.Y[1].size(), 0.8, random));
+        for (Eigen::VectorXd& Y : block.Y) {
+            Y += 0.3 * (0.95 * shared + 0.31 * test::ar1_noise(Y.size(), 0.8, random));
+        }
     };
-    expect_nominal(cover(test::scara_rows(), common, least_squares_method::wls).robust);
+    expect_nominal(cover(rows, common, least_squares_method::wls).robust);
 }
 
 }  // namespace

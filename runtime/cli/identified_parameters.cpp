@@ -1,0 +1,94 @@
+#include "identified_parameters.hpp"
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+
+#include "idim/input_error.hpp"
+
+namespace idim::cli {
+
+namespace {
+
+/// name -> value, and the filter if there is one. JSON is YAML, so one reader does for both.
+std::map<std::string, double> values_of(const YAML::Node& root, const std::string& file) {
+    std::map<std::string, double> values;
+    const YAML::Node list = root["parameters"];
+    const auto number = [&file](const YAML::Node& node, const std::string& name) {
+        double value = NAN;
+        if (!YAML::convert<double>::decode(node, value) || !std::isfinite(value)) {
+            throw input_error({file, node.Mark().line + 1, name}, "expected a finite number");
+        }
+        return value;
+    };
+    if (list && list.IsSequence()) {
+        for (const YAML::Node& entry : list) {
+            if (!entry.IsMap() || !entry["name"] || !entry["value"]) {
+                throw input_error({file, entry.Mark().line + 1, "parameters"}, "expected entries with name and value");
+            }
+            const auto name = entry["name"].as<std::string>();
+            values[name] = number(entry["value"], name);
+        }
+        return values;
+    }
+    for (const auto& entry : list && list.IsMap() ? list : root) {
+        const auto name = entry.first.as<std::string>();
+        values[name] = number(entry.second, name);
+    }
+    return values;
+}
+
+YAML::Node read_root(const std::string& file) {
+    try {
+        YAML::Node root = YAML::LoadFile(file);
+        if (!root.IsMap()) {
+            throw input_error({file, 1, ""}, "expected a result of identify, or a map of parameter names to values");
+        }
+        return root;
+    } catch (const YAML::BadFile&) {
+        throw input_error({file, 0, ""}, "cannot be read");
+    } catch (const YAML::ParserException& error) {
+        throw input_error({file, error.mark.line + 1, ""}, "malformed: " + error.msg);
+    }
+}
+
+std::optional<filter_choice> filter_of(const YAML::Node& root) {
+    const YAML::Node filter = root["filter"];
+    if (!filter || !filter.IsMap() || !filter["cutoff"] || !filter["order"] || !filter["decimation"]) {
+        return std::nullopt;
+    }
+    filter_choice choice;
+    choice.cutoff = filter["cutoff"].as<double>();
+    choice.order = filter["order"].as<int>();
+    choice.decimation = filter["decimation"].as<int>();
+    choice.reason = "as the parameters were identified";
+    return choice;
+}
+
+}  // namespace
+
+identified_parameters read_parameters(const std::string& file, const loaded_robot& robot) {
+    const YAML::Node root = read_root(file);
+    std::map<std::string, double> values = values_of(root, file);
+    const auto& names = robot.generated.base.parameters;
+    identified_parameters result{Eigen::VectorXd(static_cast<Eigen::Index>(names.size())), filter_of(root)};
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        const auto found = values.find(names[k].name);
+        if (found == values.end()) {
+            throw input_error({file, 0, names[k].name}, fmt::format("missing, expected a value for every base parameter of {}",
+                                                                    robot.generated.robot));
+        }
+        result.chi[static_cast<Eigen::Index>(k)] = found->second;
+        values.erase(found);
+    }
+    if (!values.empty()) {
+        throw input_error({file, 0, values.begin()->first},
+                          fmt::format("no base parameter of {}: identified with another description?", robot.generated.robot));
+    }
+    return result;
+}
+
+}  // namespace idim::cli

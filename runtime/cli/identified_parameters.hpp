@@ -1,0 +1,22 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+
+#include "idim/filtered_samples.hpp"
+#include "measured_motion.hpp"
+
+namespace idim::cli {
+
+/// Values of the base parameters, from a result of `identify --json`, or a YAML or JSON map of names to values.
+struct identified_parameters {
+    Eigen::VectorXd chi;                       ///< [b], in the order of the robot's model
+    std::optional<filter_choice> filter = {};  ///< the filtering they were identified with, if the file says
+};
+
+/// Throws input_error where the file cannot be read, a base parameter of the robot is missing, or one is named that the robot does
+/// not have.
+identified_parameters read_parameters(const std::string& file, const loaded_robot& robot);
+
+}  // namespace idim::cli

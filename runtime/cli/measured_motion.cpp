@@ -1,0 +1,108 @@
+#include "measured_motion.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "idim/input_error.hpp"
+#include "resources.hpp"
+
+namespace idim::cli {
+
+namespace {
+
+std::string read_text(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+}  // namespace
+
+loaded_robot load_robot(const std::string& robot_file) {
+    generator::generated_model generated = generator::generate(robot_file, templates_folder());
+    std::vector<model_source> sources;
+    for (const generator::rendered_file& file : generated.files) {
+        sources.push_back({file.name, file.text});
+    }
+    sources.push_back({"idim/model_interface.h", read_text(include_folder() + "/idim/model_interface.h")});
+    compiled_model compiled = compile_model(sources, generated.input_hash);
+    return {std::move(generated), std::move(compiled)};
+}
+
+log_columns columns_of(const loaded_robot& robot) {
+    log_columns columns;
+    for (const auto& joint : robot.generated.joints) {
+        columns.joint_names.push_back(joint.name);
+        columns.drive_gain.push_back(joint.drive_gain);
+    }
+    return columns;
+}
+
+std::vector<idim::log> read_logs(const loaded_robot& robot, const std::vector<std::string>& files) {
+    std::vector<idim::log> logs;
+    for (const std::string& file : files) {
+        logs.push_back(read_log(file, columns_of(robot)));
+    }
+    return logs;
+}
+
+std::vector<std::string> joints_at_rest(const loaded_robot& robot, const std::vector<idim::log>& logs) {
+    std::vector<std::string> names;
+    for (std::size_t j = 0; j < robot.generated.joints.size(); ++j) {
+        bool moves = false;
+        for (const idim::log& log : logs) {
+            const auto q = log.q.col(static_cast<Eigen::Index>(j));
+            moves = moves || q.maxCoeff() > q.minCoeff();
+        }
+        if (!moves) {
+            names.push_back(robot.generated.joints[j].name);
+        }
+    }
+    return names;
+}
+
+observation observe_logs(const loaded_robot& robot, const std::vector<idim::log>& logs, const filter_choice& choice) {
+    std::vector<filtered_samples> samples;
+    for (const idim::log& log : logs) {
+        samples.push_back(filter_log(log, choice));
+    }
+    return observe(robot.model(), samples, choice);
+}
+
+void add_filter_options(CLI::App& command, filter_request& request) {
+    command.add_option("--cutoff", request.cutoff, "cut-off of the position filter [Hz]; default: chosen from the data");
+    command.add_option("--order", request.order, "order of its Butterworth filter, applied forward and backward; default 4");
+    command.add_option("--decimation", request.decimation, "keep one row in so many; default: chosen from the data");
+}
+
+json finite(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+
+json to_json(const error_summary& errors, const loaded_robot& robot) {
+    json joints = json::array();
+    for (std::size_t j = 0; j < errors.joints.size(); ++j) {
+        joints.push_back({{"joint", robot.generated.joints[j].name},
+                          {"rms", finite(errors.joints[j].rms)},
+                          {"relative_error", finite(errors.joints[j].relative_error)}});
+    }
+    return {{"relative_error", finite(errors.relative_error)}, {"joints", joints}};
+}
+
+json to_json(const filter_choice& choice) {
+    return {{"cutoff", choice.cutoff}, {"order", choice.order}, {"decimation", choice.decimation}, {"reason", choice.reason}};
+}
+
+void print(const error_summary& errors, const loaded_robot& robot) {
+    fmt::print("  relative error {:.2f} %;", 100.0 * errors.relative_error);
+    for (std::size_t j = 0; j < errors.joints.size(); ++j) {
+        const auto& joint = robot.generated.joints[j];
+        fmt::print("{} {} {:.1f} % ({:.3g} {})", j == 0 ? "" : ",", joint.name, 100.0 * errors.joints[j].relative_error,
+                   errors.joints[j].rms, joint.prismatic ? "N" : "N*m");
+    }
+    fmt::print("\n");
+}
+
+}  // namespace idim::cli

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "command.hpp"
+#include "generator.hpp"
+#include "idim/compiled_model.hpp"
+#include "idim/estimate.hpp"
+#include "idim/log.hpp"
+
+namespace idim::cli {
+
+/// A robot's model, generated, compiled and loaded.
+struct loaded_robot {
+    generator::generated_model generated;
+    compiled_model compiled;
+
+    const idim_model_interface& model() const { return compiled.interface(); }
+};
+
+/// Generates, compiles (or takes from the cache) and loads the model of a robot description.
+loaded_robot load_robot(const std::string& robot_file);
+
+/// Names and drive gains for reading a log of this robot.
+log_columns columns_of(const loaded_robot& robot);
+
+/// Reads all logs.
+std::vector<idim::log> read_logs(const loaded_robot& robot, const std::vector<std::string>& files);
+
+/// Joints whose measured position never leaves one value over all logs, by name.
+std::vector<std::string> joints_at_rest(const loaded_robot& robot, const std::vector<idim::log>& logs);
+
+/// Rows of the identification: filtered, decimated.
+observation observe_logs(const loaded_robot& robot, const std::vector<idim::log>& logs, const filter_choice& choice);
+
+/// Options --cutoff, --order, --decimation.
+void add_filter_options(CLI::App& command, filter_request& request);
+
+json to_json(const error_summary& errors, const loaded_robot& robot);
+json to_json(const filter_choice& choice);
+void print(const error_summary& errors, const loaded_robot& robot);
+
+/// A number for JSON: null where it is not finite.
+json finite(double value);
+
+}  // namespace idim::cli
