@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "identified_parameters.hpp"
 #include "idim/estimate.hpp"
 #include "idim/input_error.hpp"
 #include "measured_motion.hpp"
@@ -14,6 +15,7 @@ struct identify_options {
     std::vector<std::string> logs;
     std::string method = "wls";
     filter_request filter;
+    std::string truth;
     std::string json_file;
 };
 
@@ -136,6 +138,17 @@ void print_identification(const identification& found, const std::string& method
                dropped.empty() ? "none" : fmt::format("{}", fmt::join(dropped, " ")));
 }
 
+/// For simulated logs: how far the estimate is from what was simulated, in its own deviations.
+void print_truth(const identification& found, const Eigen::VectorXd& truth) {
+    const Eigen::VectorXd std = found.result.deviations();
+    fmt::print("  {:<10} {:>13} {:>13} {:>22}\n", "parameter", "truth", "estimate", "error in deviations");
+    for (Eigen::Index k = 0; k < truth.size(); ++k) {
+        fmt::print("  {:<10} {:>13.6g} {:>13.6g} {:>22.2f}\n",
+                   found.robot.generated.base.parameters[static_cast<std::size_t>(k)].name, truth[k], found.result.chi[k],
+                   (found.result.chi[k] - truth[k]) / std[k]);
+    }
+}
+
 /// One line that says what the data lacks.
 std::string explain(const identification& found, const std::vector<std::string>& at_rest) {
     std::vector<std::string> names;
@@ -152,6 +165,7 @@ std::string explain(const identification& found, const std::vector<std::string>&
 
 int run(const identify_options& options) {
     loaded_robot robot = load_robot(options.robot);
+    const Eigen::VectorXd truth = options.truth.empty() ? Eigen::VectorXd() : read_parameters(options.truth, robot).chi;
     const std::vector<idim::log> logs = read_logs(robot, options.logs);
     const std::vector<std::string> at_rest = joints_at_rest(robot, logs);
     const filter_choice filter = choose_filter(logs, options.filter);
@@ -168,6 +182,9 @@ int run(const identify_options& options) {
     }
     if (prints_text(options.json_file)) {
         print_identification(found, options.method);
+        if (truth.size() > 0) {
+            print_truth(found, truth);
+        }
     }
     return exit_done;
 }
@@ -181,6 +198,7 @@ void add_identify_command(CLI::App& app, action& chosen) {
     command->add_option("logs", options->logs, "logs (.csv, .csv.gz)")->required();
     command->add_option("--method", options->method, "ols, wls (default) or irls")->check(CLI::IsMember({"ols", "wls", "irls"}));
     add_filter_options(*command, options->filter);
+    command->add_option("--truth", options->truth, "parameters that were simulated, to compare with");
     add_json_option(*command, options->json_file);
     command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
