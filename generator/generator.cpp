@@ -88,7 +88,9 @@ operation_table table(const model_operations& counts) {
 
 }  // namespace
 
-const char* version() { return IDIM_VERSION; }
+const char* version() {
+    return IDIM_VERSION;
+}
 
 base_report find_base(const std::string& robot_file, const std::string& templates) {
     return report(load(robot_file, templates));

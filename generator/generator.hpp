@@ -8,8 +8,8 @@
 #include "graph/operation_count.hpp"
 #include "idim/input_error.hpp"
 
-/// The generator as one call: description -> kinematic tree -> symbolic model -> base parameters -> expression graph -> template
-/// context -> files. No GiNaC here, so that users of this header do not see it.
+/// The generator as one call: description -> kinematic tree -> symbolic model -> base parameters -> expression graph ->
+/// template context -> files. No GiNaC here, so that users of this header do not see it.
 namespace idim::generator {
 
 struct base_report {
@@ -40,8 +40,8 @@ struct generated_model {
     double seconds = 0.0;
 };
 
-/// Base parameters of a robot description. `templates` is the folder that holds effects/ and cpp/. Throws input_error, and
-/// rank_disagreement (a std::runtime_error) where the rank cannot be proven.
+/// Base parameters of a robot description. `templates` is the folder that holds effects/ and cpp/. Throws input_error,
+/// and rank_disagreement (a std::runtime_error) where the rank cannot be proven.
 base_report find_base(const std::string& robot_file, const std::string& templates);
 
 /// All models of a robot description as C++ sources.

@@ -81,7 +81,8 @@ class cpp_printer {
 
     void declare_parameter(int id) {
         const graph_node& node = graph_.nodes()[static_cast<std::size_t>(id)];
-        if (!live_[static_cast<std::size_t>(id)] || node.kind != operation::symbol || node.role != symbol_role::parameter) {
+        if (!live_[static_cast<std::size_t>(id)] || node.kind != operation::symbol ||
+            node.role != symbol_role::parameter) {
             return;
         }
         const graph_symbol& symbol = graph_.symbols()[static_cast<std::size_t>(node.symbol)];
@@ -151,12 +152,15 @@ class cpp_printer {
     printed expression(const graph_node& node) const {
         switch (node.kind) {
             case operation::add:
-                return {inside(node.a.id, binding::sum) + (node.b.negative ? " - " : " + ") + inside(node.b.id, binding::product),
+                return {inside(node.a.id, binding::sum) + (node.b.negative ? " - " : " + ") +
+                            inside(node.b.id, binding::product),
                         binding::sum};
             case operation::multiply:
-                return {inside(node.a.id, binding::product) + " * " + inside(node.b.id, binding::atom), binding::product};
+                return {inside(node.a.id, binding::product) + " * " + inside(node.b.id, binding::atom),
+                        binding::product};
             case operation::divide:
-                return {inside(node.a.id, binding::product) + " / " + inside(node.b.id, binding::atom), binding::product};
+                return {inside(node.a.id, binding::product) + " / " + inside(node.b.id, binding::atom),
+                        binding::product};
             default:
                 break;
         }

@@ -15,7 +15,8 @@ namespace idim::generator {
 
 namespace {
 
-using model_builder = std::function<symbolic_model(const kinematic_tree&, const standard_parameters&, const parameter_selection&)>;
+using model_builder =
+    std::function<symbolic_model(const kinematic_tree&, const standard_parameters&, const parameter_selection&)>;
 
 /// A generated function before it is derived.
 struct function_plan {
@@ -28,12 +29,28 @@ struct function_plan {
 
 std::vector<function_plan> plans() {
     return {
-        {"regressor", "Regressor of the base parameters: tau = W(q, qd, qdd) chi.", {"q", "qd", "qdd", "t", "temp"}, {"W"}, regressor_model},
-        {"inverse_dynamics", "Inverse dynamic model: tau = M(q) qdd + N(q, qd).", {"q", "qd", "qdd", "t", "temp", "chi"}, {"tau"}, inverse_dynamics_model},
+        {"regressor",
+         "Regressor of the base parameters: tau = W(q, qd, qdd) chi.",
+         {"q", "qd", "qdd", "t", "temp"},
+         {"W"},
+         regressor_model},
+        {"inverse_dynamics",
+         "Inverse dynamic model: tau = M(q) qdd + N(q, qd).",
+         {"q", "qd", "qdd", "t", "temp", "chi"},
+         {"tau"},
+         inverse_dynamics_model},
         {"mass_matrix", "Inertia matrix of the robot with its drives.", {"q", "chi"}, {"M"}, mass_matrix_model},
-        {"bias", "Torque at zero acceleration: centrifugal, Coriolis, gravity, friction and other effects.", {"q", "qd", "t", "temp", "chi"}, {"N"}, bias_model},
+        {"bias",
+         "Torque at zero acceleration: centrifugal, Coriolis, gravity, friction and other effects.",
+         {"q", "qd", "t", "temp", "chi"},
+         {"N"},
+         bias_model},
         {"gravity", "Torque that holds the rigid links at rest.", {"q", "chi"}, {"G"}, gravity_model},
-        {"forward_dynamics", "Direct dynamic model: qdd = M(q)^-1 (tau - N(q, qd)), by M = L' D L.", {"q", "qd", "tau", "t", "temp", "chi"}, {"qdd", "D"}, forward_dynamics_model},
+        {"forward_dynamics",
+         "Direct dynamic model: qdd = M(q)^-1 (tau - N(q, qd)), by M = L' D L.",
+         {"q", "qd", "tau", "t", "temp", "chi"},
+         {"qdd", "D"},
+         forward_dynamics_model},
     };
 }
 
@@ -59,9 +76,11 @@ std::vector<argument_context> arguments(const function_plan& plan, const robot_m
     const auto meaning = meanings(model.tree.dof(), model.base.parameters.size());
     std::vector<argument_context> result;
     for (const std::string& name : plan.inputs) {
-        const bool unused = (name == "t" && !model.parameters.uses_time) || (name == "temp" && !model.parameters.uses_temperature);
+        const bool unused =
+            (name == "t" && !model.parameters.uses_time) || (name == "temp" && !model.parameters.uses_temperature);
         if (!unused) {
-            result.push_back({name, (name == "t" ? "const Scalar& " : "const Scalar* ") + name, meaning.at(name), false, true});
+            result.push_back(
+                {name, (name == "t" ? "const Scalar& " : "const Scalar* ") + name, meaning.at(name), false, true});
         }
     }
     for (const std::string& name : plan.outputs) {
@@ -97,7 +116,8 @@ std::set<std::string> arrays_read(const expression_graph& graph) {
 
 /// Names that mean something else in the body: arguments, the scalar type and the functions it uses.
 std::set<std::string> reserved_names() {
-    std::set<std::string> names = {"Scalar", "std", "q", "qd", "qdd", "tau", "t", "temp", "chi", "W", "M", "N", "G", "D", "standard"};
+    std::set<std::string> names = {"Scalar", "std", "q", "qd", "qdd", "tau", "t",       "temp",
+                                   "chi",    "W",   "M", "N",  "G",   "D",   "standard"};
     for (int kind = static_cast<int>(function_kind::sin); kind <= static_cast<int>(function_kind::pow); ++kind) {
         names.insert(to_string(static_cast<function_kind>(kind)));
     }
@@ -105,7 +125,11 @@ std::set<std::string> reserved_names() {
 }
 
 function_context lay_out(const function_plan& plan, const robot_model& model, const expression_graph& graph) {
-    function_context function{plan.name, plan.summary, arguments(plan, model), count_operations(graph), called_functions(graph),
+    function_context function{plan.name,
+                              plan.summary,
+                              arguments(plan, model),
+                              count_operations(graph),
+                              called_functions(graph),
                               print_cpp(graph, reserved_names())};
     const std::set<std::string> read = arrays_read(graph);
     for (argument_context& argument : function.arguments) {
@@ -135,7 +159,8 @@ function_context derive_regrouping(const robot_model& model) {
         }
         graph.output("chi", static_cast<int>(k), sum);
     }
-    function_plan plan{"regroup", "Base parameters of a robot whose standard parameters are known.", {"standard"}, {"chi"}, {}};
+    function_plan plan{
+        "regroup", "Base parameters of a robot whose standard parameters are known.", {"standard"}, {"chi"}, {}};
     return lay_out(plan, model, graph);
 }
 
@@ -156,8 +181,8 @@ std::vector<std::string> effect_list(const robot_description& robot) {
         std::vector<std::string> names;
         for (std::size_t i = 0; i < use.joints.size(); ++i) {
             const std::string& joint = robot.joints[static_cast<std::size_t>(use.joints[i])].name;
-            names.push_back(use.from.empty() ? joint
-                                             : joint + " from " + robot.joints[static_cast<std::size_t>(use.from[i])].name);
+            names.push_back(
+                use.from.empty() ? joint : joint + " from " + robot.joints[static_cast<std::size_t>(use.from[i])].name);
         }
         std::string text = fmt::format("{} at {}", use.effect, fmt::join(names, ", "));
         for (const auto& [name, value] : use.shape) {
@@ -209,9 +234,11 @@ template_context build_context(const robot_model& model, const std::string& vers
 
 model_operations count_rigid(const robot_model& rigid) {
     const auto count = [&rigid](const model_builder& build) {
-        return count_operations(build_graph(build(rigid.tree, rigid.parameters, rigid.base.selection()), constants_as::values));
+        return count_operations(
+            build_graph(build(rigid.tree, rigid.parameters, rigid.base.selection()), constants_as::values));
     };
-    return {count(inverse_dynamics_model), count(regressor_model), count(mass_matrix_model), count(forward_dynamics_model)};
+    return {count(inverse_dynamics_model), count(regressor_model), count(mass_matrix_model),
+            count(forward_dynamics_model)};
 }
 
 }  // namespace idim::generator

@@ -13,7 +13,7 @@ struct argument_context {
     std::string declaration;  ///< "const Scalar* q"
     std::string meaning;      ///< "q [2] joint positions [rad or m]"
     bool is_output = false;
-    bool used = true;         ///< the body reads or writes it
+    bool used = true;  ///< the body reads or writes it
 };
 
 /// One generated function, ready to be printed.

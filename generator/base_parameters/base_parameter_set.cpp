@@ -14,8 +14,8 @@ namespace idim::generator {
 
 namespace {
 
-/// A column whose part outside the span of the ones before it is below this share of its norm is dependent: rounding leaves 1e-14, real
-/// robots' pivots stay above 1e-5 at states of order one.
+/// A column whose part outside the span of the ones before it is below this share of its norm is dependent: rounding
+/// leaves 1e-14, real robots' pivots stay above 1e-5 at states of order one.
 constexpr double qr_tolerance = 1e-9;
 
 int rank_of_preference(const kinematic_joint& joint, parameter_kind kind) {
@@ -69,10 +69,10 @@ Eigen::MatrixXd sample_regressor(const standard_regressor& W, const kinematic_tr
 
 void compare(const column_selection& by_qr, const exact_selection& exact) {
     if (by_qr.kept != exact.kept) {
-        throw rank_disagreement(
-            fmt::format("base parameters: rank {} by QR (smallest kept pivot {:.1e}, largest dropped {:.1e}) but {} in exact "
-                        "arithmetic; the geometry is close to a special case, give its constants exactly",
-                        by_qr.kept.size(), by_qr.smallest_kept, by_qr.largest_dropped, exact.kept.size()));
+        throw rank_disagreement(fmt::format(
+            "base parameters: rank {} by QR (smallest kept pivot {:.1e}, largest dropped {:.1e}) but {} in exact "
+            "arithmetic; the geometry is close to a special case, give its constants exactly",
+            by_qr.kept.size(), by_qr.smallest_kept, by_qr.largest_dropped, exact.kept.size()));
     }
 }
 
@@ -130,7 +130,9 @@ base_parameter_set find_base_parameters(const kinematic_tree& tree, const standa
         result.parameters.push_back(base);
     }
     for (std::size_t p = 0; p < parameters.all.size(); ++p) {
-        const auto in = [p](const std::vector<std::size_t>& list) { return std::find(list.begin(), list.end(), p) != list.end(); };
+        const auto in = [p](const std::vector<std::size_t>& list) {
+            return std::find(list.begin(), list.end(), p) != list.end();
+        };
         if (!in(by_qr.kept) && !in(by_qr.dropped)) {
             result.without_effect.push_back(p);
         }

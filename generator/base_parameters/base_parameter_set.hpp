@@ -52,13 +52,13 @@ struct base_parameter_set {
 
 /// Finds the base parameters of a tree with effects.
 ///
-/// The regressor of the standard parameters is sampled at random states and its columns are taken in an order of preference by QR
-/// (Gautier 1991): so that the names come out as in the literature, first XX XY XZ YZ ZZ MX MY of revolute and MX MY MZ M of
-/// prismatic links from the last link to the first, then the effects, then the rest.
-/// The decision is proven in exact arithmetic at rational points: independence of the kept columns modulo a prime (a lower bound of the
-/// rank over the rationals), dependence of the dropped ones by inserting the regrouping formulas in CLN rationals (an upper
-/// bound). The formulas come from the same elimination at random values of the constants.
-/// Throws rank_disagreement where QR and exact rank differ.
+/// The regressor of the standard parameters is sampled at random states and its columns are taken in an order of
+/// preference by QR (Gautier 1991): so that the names come out as in the literature, first XX XY XZ YZ ZZ MX MY of
+/// revolute and MX MY MZ M of prismatic links from the last link to the first, then the effects, then the rest. The
+/// decision is proven in exact arithmetic at rational points: independence of the kept columns modulo a prime (a lower
+/// bound of the rank over the rationals), dependence of the dropped ones by inserting the regrouping formulas in CLN
+/// rationals (an upper bound). The formulas come from the same elimination at random values of the constants. Throws
+/// rank_disagreement where QR and exact rank differ.
 base_parameter_set find_base_parameters(const kinematic_tree& tree, const standard_parameters& parameters);
 
 }  // namespace idim::generator

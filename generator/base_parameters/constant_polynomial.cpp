@@ -6,7 +6,9 @@ namespace idim::generator {
 
 namespace {
 
-rational power(const rational& base, int exponent) { return cln::expt(base, exponent); }
+rational power(const rational& base, int exponent) {
+    return cln::expt(base, exponent);
+}
 
 std::string printed(const monomial& m, const kinematic_tree& tree) {
     std::string text;

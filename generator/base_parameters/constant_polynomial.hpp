@@ -12,8 +12,8 @@ namespace idim::generator {
 /// Product of powers of constants: (index into kinematic_tree::constants, exponent).
 using monomial = std::vector<std::pair<std::size_t, int>>;
 
-/// A coefficient of a regrouping, exact: a sum of rational multiples of monomials in the constants of the robot, such as
-/// D3^2 + R3^2.
+/// A coefficient of a regrouping, exact: a sum of rational multiples of monomials in the constants of the robot, such
+/// as D3^2 + R3^2.
 struct constant_polynomial {
     std::vector<std::pair<rational, monomial>> terms;
 
@@ -22,8 +22,9 @@ struct constant_polynomial {
     std::string text(const kinematic_tree& tree) const;
 };
 
-/// Monomials that may occur in the given groups of constants: degree up to two in the lengths, and up to two in cosine and sine of
-/// each angle (moving an inertia is quadratic in both). A group holds one length or the cosine and sine of one angle.
+/// Monomials that may occur in the given groups of constants: degree up to two in the lengths, and up to two in cosine
+/// and sine of each angle (moving an inertia is quadratic in both). A group holds one length or the cosine and sine of
+/// one angle.
 std::vector<monomial> candidate_monomials(const std::vector<std::vector<std::size_t>>& groups);
 
 prime_field evaluate(const monomial& m, const std::vector<prime_field>& constants);

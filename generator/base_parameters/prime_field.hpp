@@ -6,8 +6,8 @@
 
 namespace idim::generator {
 
-/// Integers modulo the Mersenne prime 2^61 - 1. A matrix of rationals reduced to this field has at most the rank it has over the
-/// rationals, so independence found here is proven there.
+/// Integers modulo the Mersenne prime 2^61 - 1. A matrix of rationals reduced to this field has at most the rank it has
+/// over the rationals, so independence found here is proven there.
 class prime_field {
   public:
     static constexpr std::uint64_t modulus = (std::uint64_t{1} << 61) - 1;
@@ -35,8 +35,8 @@ class prime_field {
     std::uint64_t value_ = 0;
 };
 
-/// The rational of smallest size that the residue stands for; its numerator and denominator are below 2^30, or the answer is
-/// zero with `found` false.
+/// The rational of smallest size that the residue stands for; its numerator and denominator are below 2^30, or the
+/// answer is zero with `found` false.
 rational reconstruct(prime_field residue, bool& found);
 
 }  // namespace idim::generator

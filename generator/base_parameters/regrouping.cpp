@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <set>
 
 #include "base_parameters/base_parameter_set.hpp"
 #include "base_parameters/sample_point.hpp"
@@ -14,7 +13,7 @@ namespace idim::generator {
 
 namespace {
 
-constexpr std::size_t most_monomials = 300;
+constexpr std::size_t most_groups = 5;     // constants that one coefficient may depend on and still be a formula
 constexpr std::uint64_t point_height = 7;  // small rationals keep the exact proof short
 
 constant_values by_symbol(const expression_graph& graph, const std::vector<rational>& constants) {
@@ -45,7 +44,8 @@ std::optional<std::vector<prime_field>> fit(const std::vector<monomial>& candida
         order.push_back(c);
     }
     const exact_selection solution = select_exactly(rows, order);
-    if (solution.kept.size() != candidates.size() || solution.dropped.size() != 1 || solution.dropped[0] != candidates.size()) {
+    if (solution.kept.size() != candidates.size() || solution.dropped.size() != 1 ||
+        solution.dropped[0] != candidates.size()) {
         return std::nullopt;
     }
     std::vector<prime_field> coefficients;
@@ -55,7 +55,8 @@ std::optional<std::vector<prime_field>> fit(const std::vector<monomial>& candida
     return coefficients;
 }
 
-std::optional<constant_polynomial> polynomial(const std::vector<monomial>& candidates, const std::vector<prime_field>& residues) {
+std::optional<constant_polynomial> polynomial(const std::vector<monomial>& candidates,
+                                              const std::vector<prime_field>& residues) {
     constant_polynomial result;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
         bool found = true;
@@ -80,7 +81,8 @@ std::vector<prime_field> to_field(const std::vector<rational>& values) {
 
 }  // namespace
 
-regrouping::regrouping(const standard_regressor& W, const kinematic_tree& tree, const std::vector<std::size_t>& preference)
+regrouping::regrouping(const standard_regressor& W, const kinematic_tree& tree,
+                       const std::vector<std::size_t>& preference)
     : W_(W), tree_(tree), preference_(preference) {
     // Rows for the largest rank there can be, and some to spare: rows of outer joints see few columns.
     points_ = W.columns / W.dof + 3;
@@ -115,7 +117,8 @@ exact_selection regrouping::select_at(const std::vector<rational>& constants) co
         sample_point<prime_field> point(static_cast<std::uint64_t>(s) + 1, point_height);
         const std::vector<prime_field> entries = point.evaluate_at(W_.graph, values);
         for (std::size_t k = 0; k < entries.size(); ++k) {
-            rows[first + static_cast<std::size_t>(W_.row_of_output[k])][static_cast<std::size_t>(W_.column_of_output[k])] = entries[k];
+            rows[first + static_cast<std::size_t>(W_.row_of_output[k])]
+                [static_cast<std::size_t>(W_.column_of_output[k])] = entries[k];
         }
     }
     return select_exactly(std::move(rows), preference_);
@@ -137,121 +140,134 @@ constant_polynomial regrouping::number(prime_field residue) const {
     bool found = true;
     const rational value = reconstruct(residue, found);
     if (!found) {
-        throw rank_disagreement("base parameters: a regrouping coefficient is neither a polynomial in the constants nor a short "
-                                "fraction; give the geometry in named constants");
+        throw rank_disagreement(
+            "base parameters: a regrouping coefficient is neither a polynomial in the constants nor a short "
+            "fraction; give the geometry in named constants");
     }
     return {{{value, {}}}};
 }
 
-std::vector<regrouped_column> regrouping::columns() const {
-    const auto groups = constant_groups();
-    const std::vector<rational> base = draw_constants(1);
-    const exact_selection generic = select_at(base);
-    const bool is_generic = generic.kept == own_.kept && generic.dropped == own_.dropped;
+std::vector<std::size_t> regrouping::dependence(const elimination_series& series, std::size_t k, std::size_t d) const {
+    const exact_selection& base = series.samples.front();
+    std::vector<std::size_t> groups;
+    for (std::size_t g = 0; g < series.changed.size(); ++g) {
+        const exact_selection& other = series.changed[g];
+        if (other.kept != base.kept || !(other.beta[k][d] == base.beta[k][d])) {
+            groups.push_back(g);
+        }
+    }
+    return groups;
+}
 
-    // Which constants each coefficient depends on: one elimination with one group changed each.
-    std::vector<exact_selection> changed;
-    for (std::size_t g = 0; is_generic && g < groups.size(); ++g) {
+const std::vector<monomial>& regrouping::candidates(elimination_series& series,
+                                                    const std::vector<std::size_t>& set) const {
+    const auto [at, fresh] = series.candidates.try_emplace(set);
+    if (fresh && set.size() <= most_groups) {
+        std::vector<std::vector<std::size_t>> chosen;
+        for (const std::size_t g : set) {
+            chosen.push_back(series.groups[g]);
+        }
+        at->second = candidate_monomials(chosen);
+    }
+    return at->second;
+}
+
+regrouping::elimination_series regrouping::eliminate_at_random_constants() const {
+    elimination_series series;
+    series.groups = constant_groups();
+    const std::vector<rational> base = draw_constants(1);
+    const std::vector<rational> other = draw_constants(2);
+    series.samples.push_back(select_at(base));
+    series.constants.push_back(to_field(base));
+    if (series.samples.front().kept != own_.kept || series.samples.front().dropped != own_.dropped) {
+        return {};
+    }
+    for (const std::vector<std::size_t>& group : series.groups) {
         std::vector<rational> constants = base;
-        const std::vector<rational> other = draw_constants(2);
-        for (const std::size_t i : groups[g]) {
+        for (const std::size_t i : group) {
             constants[i] = other[i];
         }
-        changed.push_back(select_at(constants));
+        series.changed.push_back(select_at(constants));
     }
-    std::map<std::vector<std::size_t>, std::vector<monomial>> candidates;
     std::size_t needed = 0;
-    const auto dependence = [&](std::size_t k, std::size_t d) {
-        std::vector<std::size_t> set;
-        for (std::size_t g = 0; g < changed.size(); ++g) {
-            if (changed[g].kept != generic.kept || !(changed[g].beta[k][d] == generic.beta[k][d])) {
-                set.push_back(g);
-            }
-        }
-        return set;
-    };
-    for (std::size_t k = 0; is_generic && k < own_.kept.size(); ++k) {
-        for (std::size_t d = 0; d < own_.dropped.size(); ++d) {
-            const std::vector<std::size_t> set = dependence(k, d);
-            if (candidates.count(set) == 0) {
-                std::vector<std::vector<std::size_t>> chosen;
-                for (const std::size_t g : set) {
-                    chosen.push_back(groups[g]);
-                }
-                candidates[set] = set.size() > 6 ? std::vector<monomial>{} : candidate_monomials(chosen);
-                if (candidates[set].size() <= most_monomials) {
-                    needed = std::max(needed, candidates[set].size());
-                }
-            }
-        }
-    }
-    std::vector<exact_selection> samples = {generic};
-    std::vector<std::vector<prime_field>> constants = {to_field(base)};
-    for (std::size_t s = 1; is_generic && needed > 1 && s < needed + 3; ++s) {
+    for_each_coefficient([&](std::size_t k, std::size_t d) {
+        needed = std::max(needed, candidates(series, dependence(series, k, d)).size());
+    });
+    for (std::size_t s = 1; needed > 1 && s < needed + 3; ++s) {
         const std::vector<rational> drawn = draw_constants(s + 2);
-        samples.push_back(select_at(drawn));
-        constants.push_back(to_field(drawn));
-        if (samples.back().kept != own_.kept) {
-            samples.pop_back();
-            constants.pop_back();
+        const exact_selection sample = select_at(drawn);
+        if (sample.kept == own_.kept) {
+            series.samples.push_back(sample);
+            series.constants.push_back(to_field(drawn));
         }
     }
+    return series;
+}
 
-    std::vector<regrouped_column> result;
-    for (std::size_t k = 0; k < own_.kept.size(); ++k) {
-        for (std::size_t d = 0; d < own_.dropped.size(); ++d) {
-            std::optional<constant_polynomial> coefficient;
-            if (is_generic) {
-                const auto& monomials = candidates[dependence(k, d)];
-                if (!monomials.empty() && monomials.size() <= most_monomials) {
-                    std::vector<prime_field> values;
-                    for (const exact_selection& sample : samples) {
-                        values.push_back(sample.beta[k][d]);
-                    }
-                    const bool vanishes = std::all_of(values.begin(), values.end(), [](prime_field v) { return v.is_zero(); });
-                    if (vanishes && own_.beta[k][d].is_zero()) {
-                        continue;
-                    }
-                    if (const auto residues = fit(monomials, constants, values)) {
-                        coefficient = polynomial(monomials, *residues);
-                    }
-                }
-            }
-            if (!coefficient || !(prime_field(coefficient->value(own_constants_)) == own_.beta[k][d])) {
-                coefficient = number(own_.beta[k][d]);
-            }
-            if (!own_.beta[k][d].is_zero()) {
-                result.push_back({own_.kept[k], own_.dropped[d], *coefficient, coefficient->value(own_constants_)});
-            }
-        }
+std::optional<constant_polynomial> regrouping::formula(elimination_series& series, std::size_t k, std::size_t d) const {
+    if (series.samples.empty()) {
+        return std::nullopt;
     }
+    const std::vector<monomial>& monomials = candidates(series, dependence(series, k, d));
+    if (monomials.empty()) {
+        return std::nullopt;
+    }
+    std::vector<prime_field> values;
+    for (const exact_selection& sample : series.samples) {
+        values.push_back(sample.beta[k][d]);
+    }
+    const auto residues = fit(monomials, series.constants, values);
+    const auto found = residues ? polynomial(monomials, *residues) : std::nullopt;
+    const bool holds = found && prime_field(found->value(own_constants_)) == own_.beta[k][d];
+    return holds ? found : std::nullopt;
+}
+
+std::vector<regrouped_column> regrouping::columns() const {
+    elimination_series series = eliminate_at_random_constants();
+    std::vector<regrouped_column> result;
+    for_each_coefficient([&](std::size_t k, std::size_t d) {
+        const auto symbolic = formula(series, k, d);
+        const constant_polynomial coefficient = symbolic ? *symbolic : number(own_.beta[k][d]);
+        result.push_back({own_.kept[k], own_.dropped[d], coefficient, coefficient.value(own_constants_)});
+    });
     return result;
 }
 
-void regrouping::prove(const std::vector<regrouped_column>& columns) const {
-    const constant_values values = by_symbol(W_.graph, own_constants_);
-    for (int s = 0; s < points_; ++s) {
-        sample_point<rational> point(static_cast<std::uint64_t>(s) + 1, point_height);
-        const std::vector<rational> entries = point.evaluate_at(W_.graph, values);
-        const auto width = static_cast<std::size_t>(W_.columns);
-        std::vector<rational> W(static_cast<std::size_t>(W_.dof) * width, rational(0));
-        for (std::size_t k = 0; k < entries.size(); ++k) {
-            W[static_cast<std::size_t>(W_.row_of_output[k]) * width + static_cast<std::size_t>(W_.column_of_output[k])] = entries[k];
+void regrouping::for_each_coefficient(const std::function<void(std::size_t, std::size_t)>& visit) const {
+    for (std::size_t k = 0; k < own_.kept.size(); ++k) {
+        for (std::size_t d = 0; d < own_.dropped.size(); ++d) {
+            if (!own_.beta[k][d].is_zero()) {
+                visit(k, d);
+            }
         }
-        for (std::size_t row = 0; row < static_cast<std::size_t>(W_.dof); ++row) {
-            std::vector<rational> rest;
-            for (const std::size_t d : own_.dropped) {
-                rest.push_back(W[row * width + d]);
+    }
+}
+
+std::vector<std::vector<rational>> regrouping::exact_rows(int point_number) const {
+    sample_point<rational> point(static_cast<std::uint64_t>(point_number) + 1, point_height);
+    const std::vector<rational> entries = point.evaluate_at(W_.graph, by_symbol(W_.graph, own_constants_));
+    std::vector<std::vector<rational>> rows(static_cast<std::size_t>(W_.dof),
+                                            std::vector<rational>(static_cast<std::size_t>(W_.columns), rational(0)));
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+        rows[static_cast<std::size_t>(W_.row_of_output[k])][static_cast<std::size_t>(W_.column_of_output[k])] =
+            entries[k];
+    }
+    return rows;
+}
+
+void regrouping::prove(const std::vector<regrouped_column>& columns) const {
+    for (int s = 0; s < points_; ++s) {
+        for (std::vector<rational>& row : exact_rows(s)) {
+            for (const regrouped_column& column : columns) {
+                row[column.dropped] = row[column.dropped] - column.exact * row[column.kept];
             }
-            for (std::size_t c = 0; c < columns.size(); ++c) {
-                const auto at = std::find(own_.dropped.begin(), own_.dropped.end(), columns[c].dropped) - own_.dropped.begin();
-                auto& remainder = rest[static_cast<std::size_t>(at)];
-                remainder = remainder - columns[c].exact * W[row * width + columns[c].kept];
-            }
-            if (!std::all_of(rest.begin(), rest.end(), [](const rational& r) { return cln::zerop(r); })) {
-                throw rank_disagreement(fmt::format("base parameters: rank {} modulo a prime, but the regrouping does not hold "
-                                                    "exactly at rational point {}",
-                                                    own_.kept.size(), s + 1));
+            const bool holds = std::all_of(own_.dropped.begin(), own_.dropped.end(),
+                                           [&row](std::size_t d) { return cln::zerop(row[d]); });
+            if (!holds) {
+                throw rank_disagreement(
+                    fmt::format("base parameters: rank {} modulo a prime, but the regrouping does not hold "
+                                "exactly at rational point {}",
+                                own_.kept.size(), s + 1));
             }
         }
     }

@@ -13,10 +13,10 @@ namespace idim::generator {
 /// Values for the constants of a graph, one per graph symbol (others ignored).
 using constant_values = std::vector<rational>;
 
-/// A random state of the robot in exact numbers, from which a graph is evaluated over a field T (rationals, or integers modulo a
-/// prime). Cosine and sine of an angle lie on the unit circle exactly: ((1-t^2)/(1+t^2), 2t/(1+t^2)) with t rational. Signs are +1
-/// or -1, abs(x) = sign(x) x; other functions are not rational and stand for values of their own. The same seed gives the
-/// same state for every T.
+/// A random state of the robot in exact numbers, from which a graph is evaluated over a field T (rationals, or integers
+/// modulo a prime). Cosine and sine of an angle lie on the unit circle exactly: ((1-t^2)/(1+t^2), 2t/(1+t^2)) with t
+/// rational. Signs are +1 or -1, abs(x) = sign(x) x; other functions are not rational and stand for values of their
+/// own. The same seed gives the same state for every T.
 template <class T>
 class sample_point {
   public:

@@ -30,7 +30,8 @@ struct effect_description {
     std::string file;
     std::string name;
     effect_scope scope = effect_scope::joint;
-    bool acts_on_both = false;  ///< pair effects: the same torque, roles exchanged, acts on the other joint with the same coefficients
+    bool acts_on_both =
+        false;  ///< pair effects: the same torque, roles exchanged, acts on the other joint with the same coefficients
     expression_text torque;
     std::vector<linear_coefficient> linear;
     std::vector<shape_coefficient> shape;
@@ -40,8 +41,9 @@ struct effect_description {
 /// Reads one effect file. Throws input_error.
 effect_description read_effect(const std::string& file);
 
-/// Finds `<effect>.yaml` first beside the robot description (its folder, and effects/ in it), then in `effects_folder`. Throws
-/// input_error naming the robot's line and the folders searched when there is none.
-effect_description find_effect(const effect_use& use, const robot_description& robot, const std::string& effects_folder);
+/// Finds `<effect>.yaml` first beside the robot description (its folder, and effects/ in it), then in `effects_folder`.
+/// Throws input_error naming the robot's line and the folders searched when there is none.
+effect_description find_effect(const effect_use& use, const robot_description& robot,
+                               const std::string& effects_folder);
 
 }  // namespace idim::generator

@@ -24,8 +24,8 @@ struct joint_limits {
     std::optional<double> effort;                       ///< [N*m or N]
 };
 
-/// One modified Denavit-Hartenberg row (METHODS.md, "Model"): the frame of this joint's link in that of its antecedent is
-/// Rot(z,gamma) Trans(z,b) Rot(x,alpha) Trans(x,d) Rot(z,theta) Trans(z,r). Angles in radians, lengths in metres.
+/// One modified Denavit-Hartenberg row (METHODS.md, "Model"): the frame of this joint's link in that of its antecedent
+/// is Rot(z,gamma) Trans(z,b) Rot(x,alpha) Trans(x,d) Rot(z,theta) Trans(z,r). Angles in radians, lengths in metres.
 struct joint_description {
     std::string name;
     joint_type type = joint_type::revolute;
@@ -54,9 +54,10 @@ struct effect_use {
 /// How the robot is controlled; read and checked where a simulation needs it.
 struct control_description {
     std::string law;
-    double rate = 0.0;                                  ///< [Hz]
-    std::map<std::string, std::vector<double>> values;  ///< wn, zeta, kp, kv, saturation ...: one number per driven joint
-    double delay = 0.0;                                 ///< [s]
+    double rate = 0.0;  ///< [Hz]
+    std::map<std::string, std::vector<double>>
+        values;          ///< wn, zeta, kp, kv, saturation ...: one number per driven joint
+    double delay = 0.0;  ///< [s]
     input_location where;
 };
 

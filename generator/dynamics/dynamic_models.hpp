@@ -34,8 +34,8 @@ symbolic_model gravity_model(const kinematic_tree& tree, const standard_paramete
 symbolic_model mass_matrix_model(const kinematic_tree& tree, const standard_parameters& parameters,
                                  const parameter_selection& selection);
 
-/// qdd [n] = M^-1 (tau - N) [IV 21] by M = L' D L. Output arrays "qdd" and "D" [n], the pivots: all positive if and only if M is
-/// positive definite.
+/// qdd [n] = M^-1 (tau - N) [IV 21] by M = L' D L. Output arrays "qdd" and "D" [n], the pivots: all positive if and
+/// only if M is positive definite.
 symbolic_model forward_dynamics_model(const kinematic_tree& tree, const standard_parameters& parameters,
                                       const parameter_selection& selection);
 

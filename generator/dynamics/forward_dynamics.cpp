@@ -22,8 +22,8 @@ std::vector<std::size_t> ancestors(const kinematic_tree& tree, std::size_t k) {
     return result;
 }
 
-/// M = L' D L from the last joint inward, which fills in nothing that branches leave zero (Featherstone 2008, ch. 6.5). On return the
-/// strict lower triangle of M holds L and the diagonal D.
+/// M = L' D L from the last joint inward, which fills in nothing that branches leave zero (Featherstone 2008, ch. 6.5).
+/// On return the strict lower triangle of M holds L and the diagonal D.
 std::vector<ex> factorise(symbolic_model& model, const kinematic_tree& tree, std::vector<std::vector<ex>>& M) {
     std::vector<ex> reciprocal(M.size());
     for (std::size_t k = M.size(); k-- > 0;) {
@@ -56,7 +56,8 @@ symbolic_model forward_dynamics_model(const kinematic_tree& tree, const standard
     const std::size_t n = M.size();
     std::vector<ex> x(n);
     for (std::size_t i = 0; i < n; ++i) {
-        const GiNaC::symbol tau = model.declare({fmt::format("tau{}", i + 1), symbol_role::torque, static_cast<int>(i)});
+        const GiNaC::symbol tau =
+            model.declare({fmt::format("tau{}", i + 1), symbol_role::torque, static_cast<int>(i)});
         const ex effects = without_acceleration(effect_torque(parameters, values, tree.driven[i]), tree);
         x[i] = model.assign(fmt::format("b{}", i + 1), tau - bias[i] - effects);
     }

@@ -14,14 +14,16 @@ namespace {
 
 using GiNaC::ex;
 
-/// A sub-expression with the text it is sorted by. The text is built from declared symbol indices and sorted operands, so it is
-/// the same whatever order GiNaC holds the operands in.
+/// A sub-expression with the text it is sorted by. The text is built from declared symbol indices and sorted operands,
+/// so it is the same whatever order GiNaC holds the operands in.
 struct keyed {
     std::string key;
     ex value;
 };
 
-bool by_key(const keyed& a, const keyed& b) { return a.key < b.key; }
+bool by_key(const keyed& a, const keyed& b) {
+    return a.key < b.key;
+}
 
 rational to_rational(const ex& number) {
     const auto value = GiNaC::ex_to<GiNaC::numeric>(number);
@@ -33,8 +35,8 @@ rational to_rational(const ex& number) {
 
 function_kind kind_of(const ex& function) {
     static const std::map<std::string, function_kind> kinds = {
-        {"sin", function_kind::sin},   {"cos", function_kind::cos}, {"tan", function_kind::tan},
-        {"exp", function_kind::exp},   {"log", function_kind::log}, {"abs", function_kind::abs},
+        {"sin", function_kind::sin},   {"cos", function_kind::cos},   {"tan", function_kind::tan},
+        {"exp", function_kind::exp},   {"log", function_kind::log},   {"abs", function_kind::abs},
         {"sign", function_kind::sign}, {"tanh", function_kind::tanh}, {"atan", function_kind::atan},
     };
     return kinds.at(GiNaC::ex_to<GiNaC::function>(function).get_name());
@@ -76,10 +78,11 @@ class graph_builder {
         if (GiNaC::is_a<GiNaC::power>(e)) {
             return key(e.op(0)) + "^" + key(e.op(1));
         }
-        std::string text = GiNaC::is_a<GiNaC::add>(e)        ? "a"
-                           : GiNaC::is_a<GiNaC::mul>(e)      ? ""
-                           : GiNaC::is_a<GiNaC::function>(e) ? "f" + std::string(to_string(kind_of(e)))
-                                                             : throw std::logic_error("unexpected expression in a model");
+        std::string text = GiNaC::is_a<GiNaC::add>(e)   ? "a"
+                           : GiNaC::is_a<GiNaC::mul>(e) ? ""
+                           : GiNaC::is_a<GiNaC::function>(e)
+                               ? "f" + std::string(to_string(kind_of(e)))
+                               : throw std::logic_error("unexpected expression in a model");
         for (const keyed& operand : sorted(e)) {
             text += operand.key + (GiNaC::is_a<GiNaC::mul>(e) ? "*" : ",");
         }
@@ -153,8 +156,8 @@ class graph_builder {
         return graph_.function_pow(b, x);
     }
 
-    /// GiNaC scales a sum under a power so that its first term, first in an order that changes from run to run, has coefficient
-    /// one. Scaling it by the coefficient of the term that is first in our order undoes that.
+    /// GiNaC scales a sum under a power so that its first term, first in an order that changes from run to run, has
+    /// coefficient one. Scaling it by the coefficient of the term that is first in our order undoes that.
     signed_node integer_power(const ex& base, int exponent) {
         const ex expanded = base.expand();
         if (!GiNaC::is_a<GiNaC::add>(expanded)) {

@@ -13,8 +13,8 @@ struct wrench {
     vector3 moment = {0, 0, 0};
 };
 
-/// Force and moment that move one link, at its origin: f = M VP + U MS, n = J WP + W x (J W) + MS x VP, the inertia term
-/// written on the products that U already has, with differences of diagonal inertias folded into one parameter.
+/// Force and moment that move one link, at its origin: f = M VP + U MS, n = J WP + W x (J W) + MS x VP, the inertia
+/// term written on the products that U already has, with differences of diagonal inertias folded into one parameter.
 wrench link_wrench(symbolic_model& model, const link_motion& link, const parameter_values& values, int index,
                    const std::string& label) {
     const auto& U = link.U;
@@ -24,9 +24,9 @@ wrench link_wrench(symbolic_model& model, const link_motion& link, const paramet
     const ex zzyy = model.assign("ZZYY" + label, J.zz - J.yy);
     const ex xxzz = model.assign("XXZZ" + label, J.xx - J.zz);
     const ex yyxx = model.assign("YYXX" + label, J.yy - J.xx);
-    const ex u2233 = J.yz.is_zero() ? ex(0) : model.assign("U2233_" + label, U[1][1] - U[2][2]);
-    const ex u3311 = J.xz.is_zero() ? ex(0) : model.assign("U3311_" + label, U[2][2] - U[0][0]);
-    const ex u1122 = J.xy.is_zero() ? ex(0) : model.assign("U1122_" + label, U[0][0] - U[1][1]);
+    const ex u2233 = J.yz.is_zero() ? ex(0) : model.assign("U2233_" + label, link.WyWy - link.WzWz);
+    const ex u3311 = J.xz.is_zero() ? ex(0) : model.assign("U3311_" + label, link.WzWz - link.WxWx);
+    const ex u1122 = J.xy.is_zero() ? ex(0) : model.assign("U1122_" + label, link.WxWx - link.WyWy);
     const vector3 lever = cross(S, link.VP);
     const vector3 moment = {
         J.xx * link.WP[0] + zzyy * link.WyWz - J.xy * U[2][0] + J.xz * U[1][0] + J.yz * u2233 + lever[0],
@@ -51,14 +51,16 @@ std::vector<ex> joint_torques(symbolic_model& model, const kinematic_tree& tree,
         const vector3 f = model.assign("f" + joint.label, add(own.force, carried[j].force));
         const vector3 n = model.assign("n" + joint.label, add(own.moment, carried[j].moment));
         if (joint.coordinate >= 0) {
-            torque[static_cast<std::size_t>(joint.coordinate)] = joint.rate * (joint.type == joint_type::revolute ? n[2] : f[2]);
+            torque[static_cast<std::size_t>(joint.coordinate)] =
+                joint.rate * (joint.type == joint_type::revolute ? n[2] : f[2]);
         }
         if (joint.antecedent >= 0) {
             wrench& before = carried[static_cast<std::size_t>(joint.antecedent)];
             const vector3 force = frames[j].to_antecedent("fa" + joint.label, f);
             const vector3 moment = frames[j].to_antecedent("na" + joint.label, n);
             before.force = model.assign("fs" + joint.label, add(before.force, force));
-            before.moment = model.assign("ns" + joint.label, add(add(before.moment, moment), cross(frames[j].position(), force)));
+            before.moment =
+                model.assign("ns" + joint.label, add(add(before.moment, moment), cross(frames[j].position(), force)));
         }
     }
     return torque;

@@ -8,10 +8,16 @@ namespace {
 
 using GiNaC::ex;
 
-bool is_identity(const angle_pair& angle) { return angle.sin.is_zero() && angle.cos.is_equal(1); }
-bool is_quarter(const angle_pair& angle) { return angle.sin.is_zero() || angle.cos.is_zero(); }
+bool is_identity(const angle_pair& angle) {
+    return angle.sin.is_zero() && angle.cos.is_equal(1);
+}
+bool is_quarter(const angle_pair& angle) {
+    return angle.sin.is_zero() || angle.cos.is_zero();
+}
 
-angle_pair inverse(const angle_pair& angle) { return {angle.cos, -angle.sin}; }
+angle_pair inverse(const angle_pair& angle) {
+    return {angle.cos, -angle.sin};
+}
 
 /// v turned by the angle about axis 0 (x) or 2 (z); named unless it is a mere exchange of components.
 vector3 turn(symbolic_model& model, const std::string& name, const angle_pair& angle, int axis, const vector3& v) {
@@ -30,8 +36,8 @@ vector3 turn(symbolic_model& model, const std::string& name, const angle_pair& a
     return result;
 }
 
-/// A symmetric matrix turned about z. With u = s (xx - yy) + 2 c xy: xx' = xx - s u, yy' = yy + s u, xy' = c u - xy, which
-/// shares the two products s u and c u (8 multiplications in all).
+/// A symmetric matrix turned about z. With u = s (xx - yy) + 2 c xy: xx' = xx - s u, yy' = yy + s u, xy' = c u - xy,
+/// which shares the two products s u and c u (8 multiplications in all).
 symmetric3 turn_about_z(symbolic_model& model, const std::string& name, const angle_pair& angle, const symmetric3& m) {
     if (is_identity(angle)) {
         return m;
@@ -54,8 +60,12 @@ symmetric3 turn_about_z(symbolic_model& model, const std::string& name, const an
             m.zz};
 }
 
-symmetric3 z_to_x(const symmetric3& m) { return {m.yy, m.yz, m.xy, m.zz, m.xz, m.xx}; }
-symmetric3 x_to_z(const symmetric3& m) { return {m.zz, m.xz, m.yz, m.xx, m.xy, m.yy}; }
+symmetric3 z_to_x(const symmetric3& m) {
+    return {m.yy, m.yz, m.xy, m.zz, m.xz, m.xx};
+}
+symmetric3 x_to_z(const symmetric3& m) {
+    return {m.zz, m.xz, m.yz, m.xx, m.xy, m.yy};
+}
 
 /// About x: the axes renamed cyclically (y z x) -> (x y z), turned about the new z, and renamed back.
 symmetric3 turn_about_x(symbolic_model& model, const std::string& name, const angle_pair& angle, const symmetric3& m) {
@@ -68,11 +78,17 @@ vector3 cross(const vector3& a, const vector3& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-ex dot(const vector3& a, const vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+ex dot(const vector3& a, const vector3& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
-vector3 add(const vector3& a, const vector3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+vector3 add(const vector3& a, const vector3& b) {
+    return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
 
-bool is_zero(const vector3& a) { return a[0].is_zero() && a[1].is_zero() && a[2].is_zero(); }
+bool is_zero(const vector3& a) {
+    return a[0].is_zero() && a[1].is_zero() && a[2].is_zero();
+}
 
 link_frame::link_frame(symbolic_model& model, const kinematic_joint& joint)
     : model_(model), gamma_(joint.gamma), alpha_(joint.alpha), theta_(joint.theta) {

@@ -20,8 +20,8 @@ GiNaC::ex dot(const vector3& a, const vector3& b);
 vector3 add(const vector3& a, const vector3& b);
 bool is_zero(const vector3& a);
 
-/// Rotation between the frame of a joint's link and that of its antecedent, in up to three plane rotations with a name for every
-/// component in between: Rot(z,gamma) Rot(x,alpha) Rot(z,theta).
+/// Rotation between the frame of a joint's link and that of its antecedent, in up to three plane rotations with a name
+/// for every component in between: Rot(z,gamma) Rot(x,alpha) Rot(z,theta).
 class link_frame {
   public:
     link_frame(symbolic_model& model, const kinematic_joint& joint);

@@ -11,25 +11,29 @@ void complete(symbolic_model& model, link_motion& link, const std::string& label
     const auto product = [&](const std::string& name, std::size_t a, std::size_t b) {
         return model.assign(name + label, link.W[a] * link.W[b]);
     };
-    const ex xx = product("WxWx", 0, 0);
-    const ex yy = product("WyWy", 1, 1);
-    const ex zz = product("WzWz", 2, 2);
+    const ex xx = link.WxWx = product("WxWx", 0, 0);
+    const ex yy = link.WyWy = product("WyWy", 1, 1);
+    const ex zz = link.WzWz = product("WzWz", 2, 2);
     link.WxWy = product("WxWy", 0, 1);
     link.WxWz = product("WxWz", 0, 2);
     link.WyWz = product("WyWz", 1, 2);
     const auto element = [&](const std::string& name, const ex& value) { return model.assign(name + label, value); };
-    link.U[0] = {element("U11_", -yy - zz), element("U12_", link.WxWy - link.WP[2]), element("U13_", link.WxWz + link.WP[1])};
-    link.U[1] = {element("U21_", link.WxWy + link.WP[2]), element("U22_", -xx - zz), element("U23_", link.WyWz - link.WP[0])};
-    link.U[2] = {element("U31_", link.WxWz - link.WP[1]), element("U32_", link.WyWz + link.WP[0]), element("U33_", -xx - yy)};
+    link.U[0] = {element("U11_", -yy - zz), element("U12_", link.WxWy - link.WP[2]),
+                 element("U13_", link.WxWz + link.WP[1])};
+    link.U[1] = {element("U21_", link.WxWy + link.WP[2]), element("U22_", -xx - zz),
+                 element("U23_", link.WyWz - link.WP[0])};
+    link.U[2] = {element("U31_", link.WxWz - link.WP[1]), element("U32_", link.WyWz + link.WP[0]),
+                 element("U33_", -xx - yy)};
 }
 
-vector3 times(const std::array<vector3, 3>& m, const vector3& v) { return {dot(m[0], v), dot(m[1], v), dot(m[2], v)}; }
+vector3 times(const std::array<vector3, 3>& m, const vector3& v) {
+    return {dot(m[0], v), dot(m[1], v), dot(m[2], v)};
+}
 
 link_motion base_motion(const kinematic_tree& tree, const motion_inputs& inputs) {
     link_motion base;
     base.W = base.WP = base.VP = {0, 0, 0};
     base.U = {base.W, base.W, base.W};
-    base.WyWz = base.WxWz = base.WxWy = 0;
     if (inputs.gravity) {
         base.VP = {-tree.gravity[0], -tree.gravity[1], -tree.gravity[2]};
     }
@@ -49,13 +53,18 @@ link_motion step(symbolic_model& model, const kinematic_tree& tree, std::size_t 
     const vector3 WP = frame.to_link("WP" + label, before.WP);
     const vector3 carried = model.assign("VC" + label, add(before.VP, times(before.U, frame.position())));
     const vector3 VP = frame.to_link("VP" + label, carried);
-    link_motion link{W, WP, VP, {}, 0, 0, 0};
+    link_motion link;
+    link.W = W;
+    link.WP = WP;
+    link.VP = VP;
     if (joint.type == joint_type::revolute) {
         link.W[2] = model.assign("W" + label + "_3", W[2] + rate);
-        link.WP = model.assign("WP" + label + "r", vector3{WP[0] + W[1] * rate, WP[1] - W[0] * rate, WP[2] + acceleration});
+        link.WP =
+            model.assign("WP" + label + "r", vector3{WP[0] + W[1] * rate, WP[1] - W[0] * rate, WP[2] + acceleration});
     } else if (joint.type == joint_type::prismatic) {
         const ex twice = model.assign("twice_rate" + label, 2 * rate);
-        link.VP = model.assign("VP" + label + "r", vector3{VP[0] + twice * W[1], VP[1] - twice * W[0], VP[2] + acceleration});
+        link.VP =
+            model.assign("VP" + label + "r", vector3{VP[0] + twice * W[1], VP[1] - twice * W[0], VP[2] + acceleration});
     }
     complete(model, link, label);
     return link;

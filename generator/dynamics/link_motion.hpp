@@ -14,6 +14,7 @@ struct link_motion {
     /// U = skew(WP) + skew(W)^2, so that U p is the acceleration of a point p of the link relative to the origin.
     std::array<vector3, 3> U;
     GiNaC::ex WyWz, WxWz, WxWy;  ///< products shared by U and the inertia terms
+    GiNaC::ex WxWx, WyWy, WzWz;
 };
 
 /// Which part of the motion a model needs.
@@ -27,7 +28,8 @@ struct motion_inputs {
 std::vector<link_motion> propagate_motion(symbolic_model& model, const kinematic_tree& tree,
                                           const std::vector<link_frame>& frames, const motion_inputs& inputs);
 
-/// Declares q, qd, qdd of the driven joints as leaves, as far as `inputs` has them, and builds the frames of all joints.
+/// Declares q, qd, qdd of the driven joints as leaves, as far as `inputs` has them, and builds the frames of all
+/// joints.
 std::vector<link_frame> declare_motion(symbolic_model& model, const kinematic_tree& tree, const motion_inputs& inputs);
 
 }  // namespace idim::generator

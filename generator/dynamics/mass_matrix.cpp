@@ -26,8 +26,8 @@ symmetric3 sum(symbolic_model& model, const std::string& name, const symmetric3&
             model.assign(name + "_yz", a.yz + b.yz), model.assign(name + "_zz", a.zz + b.zz)};
 }
 
-/// What moving the reference point by P adds to the inertia of a body of mass M and first moments S (about the old point, in the
-/// new axes): 2 (P.S) 1 - P S' - S P' + M (P.P 1 - P P').
+/// What moving the reference point by P adds to the inertia of a body of mass M and first moments S (about the old
+/// point, in the new axes): 2 (P.S) 1 - P S' - S P' + M (P.P 1 - P P').
 symmetric3 transport(symbolic_model& model, const std::string& name, const vector3& P, const vector3& S, const ex& M) {
     // With T = S + M P / 2 this is 2 (P.T) 1 - P T' - T P'.
     const vector3 T = model.assign(name + "T", vector3{S[0] + M * P[0] / 2, S[1] + M * P[1] / 2, S[2] + M * P[2] / 2});
@@ -37,8 +37,8 @@ symmetric3 transport(symbolic_model& model, const std::string& name, const vecto
     return {y + z, -P[0] * T[1] - P[1] * T[0], -P[0] * T[2] - P[2] * T[0], x + z, -P[1] * T[2] - P[2] * T[1], x + y};
 }
 
-std::vector<composite_body> composites(symbolic_model& model, const kinematic_tree& tree, const std::vector<link_frame>& frames,
-                                       const parameter_values& values) {
+std::vector<composite_body> composites(symbolic_model& model, const kinematic_tree& tree,
+                                       const std::vector<link_frame>& frames, const parameter_values& values) {
     std::vector<composite_body> bodies;
     for (std::size_t j = 0; j < tree.joints.size(); ++j) {
         const int link = static_cast<int>(j);
@@ -57,16 +57,17 @@ std::vector<composite_body> composites(symbolic_model& model, const kinematic_tr
         before.J = sum(model, name + "s", sum(model, name + "r", turned, moved), before.J);
         const vector3& P = frames[j].position();
         const ex& mass = bodies[j].mass;
-        before.S = model.assign("SS" + joint.label,
-                                vector3{before.S[0] + S[0] + mass * P[0], before.S[1] + S[1] + mass * P[1],
-                                        before.S[2] + S[2] + mass * P[2]});
+        before.S =
+            model.assign("SS" + joint.label, vector3{before.S[0] + S[0] + mass * P[0], before.S[1] + S[1] + mass * P[1],
+                                                     before.S[2] + S[2] + mass * P[2]});
         before.mass = model.assign("MM" + joint.label, before.mass + mass);
     }
     return bodies;
 }
 
 /// Contribution of the effects to d tau_i / d qdd_j.
-ex effect_inertia(const kinematic_tree& tree, const standard_parameters& parameters, const parameter_values& values, int i, int j) {
+ex effect_inertia(const kinematic_tree& tree, const standard_parameters& parameters, const parameter_values& values,
+                  int i, int j) {
     const ex torque = effect_torque(parameters, values, tree.driven[static_cast<std::size_t>(i)]);
     return torque.diff(tree.qdd[static_cast<std::size_t>(j)]);
 }
@@ -74,8 +75,8 @@ ex effect_inertia(const kinematic_tree& tree, const standard_parameters& paramet
 }  // namespace
 
 std::vector<std::vector<ex>> inertia_elements(symbolic_model& model, const kinematic_tree& tree,
-                                              const std::vector<link_frame>& frames, const standard_parameters& parameters,
-                                              const parameter_values& values) {
+                                              const std::vector<link_frame>& frames,
+                                              const standard_parameters& parameters, const parameter_values& values) {
     const std::vector<composite_body> bodies = composites(model, tree, frames, values);
     const auto n = static_cast<std::size_t>(tree.dof());
     std::vector<std::vector<ex>> M(n, std::vector<ex>(n, 0));
@@ -85,7 +86,8 @@ std::vector<std::vector<ex>> inertia_elements(symbolic_model& model, const kinem
         const composite_body& body = bodies[static_cast<std::size_t>(link)];
         const bool turns = joint.type == joint_type::revolute;
         // Wrench that a unit acceleration of joint i takes, carried inward.
-        vector3 f = turns ? vector3{-joint.rate * body.S[1], joint.rate * body.S[0], 0} : vector3{0, 0, joint.rate * body.mass};
+        vector3 f =
+            turns ? vector3{-joint.rate * body.S[1], joint.rate * body.S[0], 0} : vector3{0, 0, joint.rate * body.mass};
         vector3 m = turns ? vector3{joint.rate * body.J.xz, joint.rate * body.J.yz, joint.rate * body.J.zz}
                           : vector3{joint.rate * body.S[1], -joint.rate * body.S[0], 0};
         for (; link >= 0; link = tree.joints[static_cast<std::size_t>(link)].antecedent) {

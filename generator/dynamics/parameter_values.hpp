@@ -11,7 +11,8 @@ namespace idim::generator {
 class parameter_values {
   public:
     /// Declares the kept parameters as leaves chi[0..b) of the model.
-    parameter_values(symbolic_model& model, const standard_parameters& parameters, const parameter_selection& selection);
+    parameter_values(symbolic_model& model, const standard_parameters& parameters,
+                     const parameter_selection& selection);
 
     const GiNaC::ex& operator[](std::size_t standard) const { return value_[standard]; }
     GiNaC::ex inertial(int link, parameter_kind kind) const { return value_[parameters_.index(link, kind)]; }

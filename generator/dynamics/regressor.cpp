@@ -10,9 +10,9 @@ namespace {
 
 using GiNaC::ex;
 
-/// A joint's axis as a link further out sees it: tau_i = e . n + m . f for a force f and a moment n at that link's origin.
-/// Carrying these two vectors outward and dotting them with the sparse columns of a link's parameters takes fewer operations than
-/// carrying the wrench of every parameter inward.
+/// A joint's axis as a link further out sees it: tau_i = e . n + m . f for a force f and a moment n at that link's
+/// origin. Carrying these two vectors outward and dotting them with the sparse columns of a link's parameters takes
+/// fewer operations than carrying the wrench of every parameter inward.
 struct carried_axis {
     vector3 e;  ///< axis of a revolute joint, zero for a prismatic one
     vector3 m;  ///< moment arm: e x (from the joint's origin to the link's), or the axis of a prismatic joint
@@ -24,7 +24,8 @@ carried_axis own_axis(const kinematic_joint& joint) {
     return joint.type == joint_type::revolute ? carried_axis{z, zero} : carried_axis{zero, z};
 }
 
-carried_axis carry(symbolic_model& model, const link_frame& frame, const carried_axis& axis, const std::string& suffix) {
+carried_axis carry(symbolic_model& model, const link_frame& frame, const carried_axis& axis,
+                   const std::string& suffix) {
     const vector3 arm = model.assign("mc" + suffix, add(axis.m, cross(axis.e, frame.position())));
     return {frame.to_link("e" + suffix, axis.e), frame.to_link("m" + suffix, arm)};
 }
@@ -37,13 +38,13 @@ vector3 inertia_column(symbolic_model& model, const link_motion& link, parameter
         case parameter_kind::XX:
             return {link.WP[0], link.WxWz, -link.WxWy};
         case parameter_kind::XY:
-            return {-U[2][0], U[2][1], difference("U1122_", U[0][0] - U[1][1])};
+            return {-U[2][0], U[2][1], difference("U1122_", link.WxWx - link.WyWy)};
         case parameter_kind::XZ:
-            return {U[1][0], difference("U3311_", U[2][2] - U[0][0]), -U[1][2]};
+            return {U[1][0], difference("U3311_", link.WzWz - link.WxWx), -U[1][2]};
         case parameter_kind::YY:
             return {-link.WyWz, link.WP[1], link.WxWy};
         case parameter_kind::YZ:
-            return {difference("U2233_", U[1][1] - U[2][2]), -U[0][1], U[0][2]};
+            return {difference("U2233_", link.WyWy - link.WzWz), -U[0][1], U[0][2]};
         default:
             return {link.WyWz, -link.WxWz, link.WP[2]};
     }
@@ -64,7 +65,8 @@ ex column(symbolic_model& model, const link_motion& link, const carried_axis& ax
 
 class regressor_builder {
   public:
-    regressor_builder(const kinematic_tree& tree, const standard_parameters& parameters, const parameter_selection& selection)
+    regressor_builder(const kinematic_tree& tree, const standard_parameters& parameters,
+                      const parameter_selection& selection)
         : tree_(tree), parameters_(parameters), selection_(selection), model_(tree) {}
 
     symbolic_model run() {
@@ -110,7 +112,8 @@ class regressor_builder {
                                  ? column(model_, links_[static_cast<std::size_t>(link)], axis, parameter.kind, label)
                                  : parameter.column_at(tree_.driven[static_cast<std::size_t>(row)]);
             const std::string name = fmt::format("W{}_{}", row + 1, selection_.names[k]);
-            model_.output("W", row * static_cast<int>(selection_.kept.size()) + static_cast<int>(k), model_.assign(name, value));
+            model_.output("W", row * static_cast<int>(selection_.kept.size()) + static_cast<int>(k),
+                          model_.assign(name, value));
         }
     }
 

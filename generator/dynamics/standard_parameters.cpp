@@ -15,7 +15,9 @@ using GiNaC::ex;
 
 constexpr std::array<const char*, 10> inertial_names = {"XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M"};
 
-std::string inertial_unit(std::size_t kind) { return kind < 6 ? "kg*m^2" : kind < 9 ? "kg*m" : "kg"; }
+std::string inertial_unit(std::size_t kind) {
+    return kind < 6 ? "kg*m^2" : kind < 9 ? "kg*m" : "kg";
+}
 
 /// Effect files give units for a revolute joint; a prismatic one has forces and metres in their place.
 std::string unit_for(const kinematic_joint& joint, std::string unit) {
@@ -43,9 +45,10 @@ class effect_reader {
                   const effect_description& effect)
         : tree_(tree), parameters_(parameters), use_(use), effect_(effect) {
         if (effect.scope == effect_scope::robot) {
-            throw input_error(use.where, fmt::format("effect {} acts on the whole robot, expected one that acts on a joint "
-                                                     "or a pair of joints",
-                                                     effect.name));
+            throw input_error(use.where,
+                              fmt::format("effect {} acts on the whole robot, expected one that acts on a joint "
+                                          "or a pair of joints",
+                                          effect.name));
         }
     }
 
@@ -88,10 +91,10 @@ class effect_reader {
     ex shape_value(const shape_coefficient& shape) const {
         const auto given = use_.shape.find(shape.name);
         if (given == use_.shape.end()) {
-            throw input_error(use_.where, fmt::format("effect {} needs a value for its shape parameter {}, expected shape: "
-                                                      "{{{}: <number from {} to {}>}}",
-                                                      effect_.name, shape.name, shape.name, shape.range.first,
-                                                      shape.range.second));
+            throw input_error(use_.where,
+                              fmt::format("effect {} needs a value for its shape parameter {}, expected shape: "
+                                          "{{{}: <number from {} to {}>}}",
+                                          effect_.name, shape.name, shape.name, shape.range.first, shape.range.second));
         }
         return decimal(given->second, use_.where);
     }
@@ -124,9 +127,10 @@ class effect_reader {
             parameters[k].columns.emplace_back(joint, column);
         }
         if (!rest.expand().is_zero()) {
-            throw input_error(effect_.torque.where,
-                              fmt::format("expression \"{}\": expected a torque that is linear in its linear coefficients",
-                                          effect_.torque.text));
+            throw input_error(
+                effect_.torque.where,
+                fmt::format("expression \"{}\": expected a torque that is linear in its linear coefficients",
+                            effect_.torque.text));
         }
     }
 
@@ -145,9 +149,10 @@ class effect_reader {
             const ex slope = column.diff(a);
             for (const GiNaC::symbol& b : tree_.qdd) {
                 if (slope.has(b)) {
-                    throw input_error(effect_.torque.where,
-                                      fmt::format("expression \"{}\": expected a torque that is affine in the accelerations",
-                                                  effect_.torque.text));
+                    throw input_error(
+                        effect_.torque.where,
+                        fmt::format("expression \"{}\": expected a torque that is affine in the accelerations",
+                                    effect_.torque.text));
                 }
             }
         }
@@ -171,7 +176,8 @@ class effect_reader {
 void check_unique(const std::vector<standard_parameter>& parameters, const std::string& name, const effect_use& use) {
     const auto same = [&name](const standard_parameter& p) { return p.name == name; };
     if (std::any_of(parameters.begin(), parameters.end(), same)) {
-        throw input_error(use.where, fmt::format("effect {} gives a second parameter {}, expected distinct names", use.effect, name));
+        throw input_error(
+            use.where, fmt::format("effect {} gives a second parameter {}, expected distinct names", use.effect, name));
     }
 }
 
@@ -201,8 +207,12 @@ standard_parameters list_parameters(const kinematic_tree& tree, const std::vecto
     std::vector<std::vector<standard_parameter>> of_joint(tree.joints.size());
     for (std::size_t j = 0; j < tree.joints.size(); ++j) {
         for (std::size_t k = 0; k < inertial_names.size(); ++k) {
-            of_joint[j].push_back({inertial_names[k] + tree.joints[j].label, static_cast<parameter_kind>(k),
-                                   static_cast<int>(j), inertial_unit(k), std::nullopt, {}});
+            of_joint[j].push_back({inertial_names[k] + tree.joints[j].label,
+                                   static_cast<parameter_kind>(k),
+                                   static_cast<int>(j),
+                                   inertial_unit(k),
+                                   std::nullopt,
+                                   {}});
         }
     }
     for (std::size_t u = 0; u < uses.size(); ++u) {

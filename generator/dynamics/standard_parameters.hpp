@@ -20,7 +20,8 @@ struct standard_parameter {
     int joint = 0;  ///< index of the link or of the joint the effect acts on
     std::string unit;
     std::optional<double> min;
-    /// Effects only: torque per unit of the parameter at each joint it acts on, in the tree's q, qd, qdd and the symbols t and temp.
+    /// Effects only: torque per unit of the parameter at each joint it acts on, in the tree's q, qd, qdd and the
+    /// symbols t and temp.
     std::vector<std::pair<int, GiNaC::ex>> columns = {};
 
     /// Torque per unit of the parameter at a joint, zero where it does not act.
@@ -39,9 +40,9 @@ struct standard_parameters {
     std::size_t index(int link, parameter_kind kind) const;
 };
 
-/// Lists the parameters of a tree with effects; `descriptions` holds one description per entry of `uses`. Throws input_error where a
-/// torque is not linear in its coefficients, uses a signal that it cannot have, or two effects name the same coefficient at
-/// one joint.
+/// Lists the parameters of a tree with effects; `descriptions` holds one description per entry of `uses`. Throws
+/// input_error where a torque is not linear in its coefficients, uses a signal that it cannot have, or two effects name
+/// the same coefficient at one joint.
 standard_parameters list_parameters(const kinematic_tree& tree, const std::vector<effect_use>& uses,
                                     const std::vector<effect_description>& descriptions);
 

@@ -30,8 +30,8 @@ struct symbolic_output {
     GiNaC::ex value;
 };
 
-/// Equations as a list of named assignments: nothing is ever unfolded, so that size grows with the number of joints and not with
-/// the number of terms of the expanded torque.
+/// Equations as a list of named assignments: nothing is ever unfolded, so that size grows with the number of joints and
+/// not with the number of terms of the expanded torque.
 class symbolic_model {
   public:
     /// Declares the constants of the robot; other leaves are declared as they are needed.
@@ -40,12 +40,14 @@ class symbolic_model {
     void declare(const GiNaC::symbol& symbol, const graph_symbol& declared);
     GiNaC::symbol declare(const graph_symbol& declared);
 
-    /// Gives `body` a name. Returns the symbol that stands for it, or the body itself where it is zero, a number, or plus or
-    /// minus one symbol, so that zeros and copies vanish on the way.
+    /// Gives `body` a name. Returns the symbol that stands for it, or the body itself where it is zero, a number, or
+    /// plus or minus one symbol, so that zeros and copies vanish on the way.
     GiNaC::ex assign(const std::string& name, const GiNaC::ex& body);
     std::array<GiNaC::ex, 3> assign(const std::string& name, const std::array<GiNaC::ex, 3>& body);
 
-    void output(const std::string& array, int index, const GiNaC::ex& value) { outputs_.push_back({array, index, value}); }
+    void output(const std::string& array, int index, const GiNaC::ex& value) {
+        outputs_.push_back({array, index, value});
+    }
 
     const std::vector<symbolic_leaf>& leaves() const { return leaves_; }
     const std::vector<assignment>& assignments() const { return assignments_; }
@@ -62,8 +64,8 @@ std::string to_string(const symbolic_model& model);
 
 enum class constants_as { values, symbols };
 
-/// Builds the ordered expression graph of a model. Bodies are expanded and their terms sorted by the order in which their symbols
-/// were declared, so that the result does not depend on GiNaC's own order of terms.
+/// Builds the ordered expression graph of a model. Bodies are expanded and their terms sorted by the order in which
+/// their symbols were declared, so that the result does not depend on GiNaC's own order of terms.
 expression_graph build_graph(const symbolic_model& model, constants_as constants);
 
 }  // namespace idim::generator

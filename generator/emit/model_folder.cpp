@@ -50,7 +50,8 @@ std::vector<std::string> left_over(const std::vector<rendered_file>& files, cons
     }
     for (const auto& entry : manifest["files"]) {
         const std::string name = entry.is_string() ? entry.get<std::string>() : "";
-        const bool still = std::any_of(files.begin(), files.end(), [&](const rendered_file& f) { return f.name == name; });
+        const bool still =
+            std::any_of(files.begin(), files.end(), [&](const rendered_file& f) { return f.name == name; });
         const bool is_plain = !name.empty() && fs::path(name).filename() == fs::path(name);
         if (is_plain && !still && fs::exists(folder / name)) {
             result.push_back(name);

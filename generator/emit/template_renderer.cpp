@@ -59,7 +59,8 @@ void check_keys(const std::string& text, const context_data& context, const std:
     static const std::regex tag("\\{\\{[#^/>]?([a-z_]+)\\}\\}");
     for (std::sregex_iterator it(text.begin(), text.end(), tag); it != std::sregex_iterator(); ++it) {
         if (!context.has((*it)[1].str())) {
-            throw std::runtime_error(fmt::format("template {}: key \"{}\" is not in the context", name, (*it)[1].str()));
+            throw std::runtime_error(
+                fmt::format("template {}: key \"{}\" is not in the context", name, (*it)[1].str()));
         }
     }
 }
@@ -122,7 +123,8 @@ std::string operation_text(const operation_count& count) {
     return count.functions == 0 ? text : text + fmt::format(", {} functions (sin, cos, sign ...)", count.functions);
 }
 
-rendered_file function_file(const template_context& context, const function_context& function, const std::string& folder) {
+rendered_file function_file(const template_context& context, const function_context& function,
+                            const std::string& folder) {
     context_data values = common(context, folder);
     values.set("name", function.name);
     values.set("summary", function.summary);
@@ -141,7 +143,8 @@ rendered_file function_file(const template_context& context, const function_cont
     for (const std::string& name : function.functions) {
         usings.push_back("std::" + name);
     }
-    values.set("using_functions", usings.empty() ? std::vector<context_data>{} : texts({fmt::format("{}", fmt::join(usings, ", "))}));
+    values.set("using_functions",
+               usings.empty() ? std::vector<context_data>{} : texts({fmt::format("{}", fmt::join(usings, ", "))}));
     return {function.name + ".hpp", render(folder, "function.hpp.mustache", values)};
 }
 

@@ -14,7 +14,8 @@ namespace idim::generator {
 ///    `arithmetic.function(kind, argument node, argument value, second value)`.
 /// The result is indexed by node id; dead nodes hold a default T.
 template <class T, class Arithmetic>
-std::vector<T> evaluate_nodes(const expression_graph& graph, const std::vector<T>& symbol_values, Arithmetic& arithmetic) {
+std::vector<T> evaluate_nodes(const expression_graph& graph, const std::vector<T>& symbol_values,
+                              Arithmetic& arithmetic) {
     const std::vector<bool> live = graph.live();
     std::vector<T> value(graph.nodes().size());
     const auto of = [&value](signed_node n) {

@@ -114,7 +114,8 @@ signed_node expression_graph::add(signed_node a, signed_node b) {
         std::swap(a, b);
     }
     const bool negative = a.negative;
-    const signed_node sum = intern(operation::add, function_kind::none, {a.id, false}, {b.id, a.negative != b.negative});
+    const signed_node sum =
+        intern(operation::add, function_kind::none, {a.id, false}, {b.id, a.negative != b.negative});
     return {sum.id, negative};
 }
 

@@ -11,8 +11,8 @@
 
 namespace idim::generator {
 
-/// What a leaf stands for; also the order in which operands of a sum or product are sorted, so that what depends on constants
-/// alone, then on parameters alone, gathers at the left and is computed once.
+/// What a leaf stands for; also the order in which operands of a sum or product are sorted, so that what depends on
+/// constants alone, then on parameters alone, gathers at the left and is computed once.
 enum class symbol_role {
     constant,
     parameter,
@@ -39,8 +39,8 @@ enum class function_kind : std::uint8_t { none, sin, cos, tan, exp, log, sqrt, a
 
 const char* to_string(function_kind kind);
 
-/// A value of the graph with its sign. Signs live on the edges, never in nodes of their own: -(a*b), a*(-b) and (-a)*b are one
-/// node, and a sign costs no operation (as in the operation counts of the literature).
+/// A value of the graph with its sign. Signs live on the edges, never in nodes of their own: -(a*b), a*(-b) and (-a)*b
+/// are one node, and a sign costs no operation (as in the operation counts of the literature).
 struct signed_node {
     int id = 0;
     bool negative = false;
@@ -49,8 +49,8 @@ struct signed_node {
     bool operator==(const signed_node& other) const { return id == other.id && negative == other.negative; }
 };
 
-/// One operation. Operands of sums and products are ordered by id; the first operand of a sum is positive, operands of a
-/// product and of a quotient are positive.
+/// One operation. Operands of sums and products are ordered by id; the first operand of a sum is positive, operands of
+/// a product and of a quotient are positive.
 struct graph_node {
     operation kind = operation::constant;
     function_kind function = function_kind::none;
@@ -68,12 +68,12 @@ struct graph_output {
     signed_node value;
 };
 
-/// Hash-consed directed acyclic graph of scalar operations. A node is created once, after its operands, and its id is its place in
-/// the order of creation; since the callers create nodes in an order that depends on declared symbol indices alone, the ids
-/// do too, and what is emitted is the same on every run and machine.
+/// Hash-consed directed acyclic graph of scalar operations. A node is created once, after its operands, and its id is
+/// its place in the order of creation; since the callers create nodes in an order that depends on declared symbol
+/// indices alone, the ids do too, and what is emitted is the same on every run and machine.
 ///
-/// Simplifies as it builds: constants folded exactly, 0 and 1 removed, a-a and a/a, common operands found whatever their
-/// order or sign.
+/// Simplifies as it builds: constants folded exactly, 0 and 1 removed, a-a and a/a, common operands found whatever
+/// their order or sign.
 class expression_graph {
   public:
     expression_graph();
@@ -106,7 +106,8 @@ class expression_graph {
     /// Marks the nodes that some output needs.
     std::vector<bool> live() const;
 
-    /// Throws std::logic_error when a node refers forward, an operand order or sign rule is broken, or a node stands twice.
+    /// Throws std::logic_error when a node refers forward, an operand order or sign rule is broken, or a node stands
+    /// twice.
     void assert_invariants() const;
 
   private:

@@ -9,9 +9,13 @@
 
 namespace idim::generator {
 
-double to_double(const rational& value) { return cln::double_approx(value); }
+double to_double(const rational& value) {
+    return cln::double_approx(value);
+}
 
-std::string to_decimal(const rational& value) { return fmt::format("{}", to_double(value)); }
+std::string to_decimal(const rational& value) {
+    return fmt::format("{}", to_double(value));
+}
 
 std::string to_fraction(const rational& value) {
     std::ostringstream text;

@@ -24,9 +24,15 @@ constexpr int deepest_nesting = 50;
     throw input_error(source.where, fmt::format("expression \"{}\": {}", source.text, message));
 }
 
-bool is_identifier_start(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-bool is_identifier_part(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+bool is_identifier_start(char c) {
+    return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+bool is_identifier_part(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+bool is_digit(char c) {
+    return std::isdigit(static_cast<unsigned char>(c)) != 0;
+}
 
 const std::vector<std::string>& function_names() {
     static const std::vector<std::string> names = {"sin",  "cos", "tan",  "exp",  "log",
@@ -62,7 +68,8 @@ GiNaC::ex decimal_value(const std::string& literal, const expression_text& sourc
     return GiNaC::numeric(digits.c_str()) * GiNaC::pow(GiNaC::numeric(10), scale);
 }
 
-/// The text with every number replaced by a placeholder symbol, so that nothing is evaluated before it has been looked at.
+/// The text with every number replaced by a placeholder symbol, so that nothing is evaluated before it has been looked
+/// at.
 struct tokenised {
     std::string text;
     GiNaC::symtab symbols;

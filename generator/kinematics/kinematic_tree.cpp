@@ -85,7 +85,8 @@ class tree_reader {
 
     static bool is_number(const ex& value) { return GiNaC::is_a<GiNaC::numeric>(value) && !value.is_zero(); }
 
-    /// A bare number becomes a symbol too, one for each magnitude, so that regroupings stay formulas until they are printed.
+    /// A bare number becomes a symbol too, one for each magnitude, so that regroupings stay formulas until they are
+    /// printed.
     ex literal(const ex& value) {
         const GiNaC::numeric number = GiNaC::ex_to<GiNaC::numeric>(value);
         const GiNaC::numeric magnitude = GiNaC::abs(number);
@@ -107,7 +108,8 @@ class tree_reader {
         return quarters >= 0 ? turned({1, 0}, quarters) : angle_symbols(angle, text);
     }
 
-    /// Cosine and sine of an angle that is no multiple of pi/2, on the unit circle exactly: from t = tan(angle/2) to 60 digits.
+    /// Cosine and sine of an angle that is no multiple of pi/2, on the unit circle exactly: from t = tan(angle/2) to 60
+    /// digits.
     angle_pair angle_symbols(const ex& angle, const expression_text& text) {
         for (std::size_t i = 0; i < angles_.size(); ++i) {
             if (angles_[i].is_equal(angle)) {
@@ -202,7 +204,8 @@ class tree_reader {
 
 std::array<GiNaC::ex, 3> kinematic_joint::position() const {
     const ex y = -alpha.sin * r;
-    return {(gamma.cos * d - gamma.sin * y).expand(), (gamma.sin * d + gamma.cos * y).expand(), (b + alpha.cos * r).expand()};
+    return {(gamma.cos * d - gamma.sin * y).expand(), (gamma.sin * d + gamma.cos * y).expand(),
+            (b + alpha.cos * r).expand()};
 }
 
 std::vector<int> kinematic_tree::path_to_base(int joint) const {
@@ -213,6 +216,8 @@ std::vector<int> kinematic_tree::path_to_base(int joint) const {
     return path;
 }
 
-kinematic_tree build_kinematic_tree(const robot_description& robot) { return tree_reader(robot).run(); }
+kinematic_tree build_kinematic_tree(const robot_description& robot) {
+    return tree_reader(robot).run();
+}
 
 }  // namespace idim::generator

@@ -17,11 +17,11 @@ struct angle_pair {
     GiNaC::ex sin = 0;
 };
 
-/// A symbol whose value is known: a named length, or the cosine or sine of a constant angle. Formulas print its text, code folds
-/// its value.
+/// A symbol whose value is known: a named length, or the cosine or sine of a constant angle. Formulas print its text,
+/// code folds its value.
 struct kinematic_constant {
     GiNaC::symbol symbol;
-    std::string text;       ///< as printed in regroupings: "L", "cos(a)"; a number if the description gives a bare number
+    std::string text;  ///< as printed in regroupings: "L", "cos(a)"; a number if the description gives a bare number
     bool is_named = false;  ///< has a name of its own, so that a formula should show it
     GiNaC::numeric value;   ///< exact rational
     int angle = -1;         ///< cosine and sine of the same angle share this number; -1 for lengths
@@ -61,8 +61,8 @@ struct kinematic_tree {
     std::vector<int> path_to_base(int joint) const;
 };
 
-/// Reads the expressions of a description. Throws input_error where theta of a revolute or r of a prismatic joint is not a constant
-/// times q plus a constant, or where another entry depends on q.
+/// Reads the expressions of a description. Throws input_error where theta of a revolute or r of a prismatic joint is
+/// not a constant times q plus a constant, or where another entry depends on q.
 kinematic_tree build_kinematic_tree(const robot_description& robot);
 
 }  // namespace idim::generator

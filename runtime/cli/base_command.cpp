@@ -47,15 +47,18 @@ void print(const generator::base_report& base) {
         }
         fmt::print("\n");
     }
-    fmt::print("rank {} by QR (smallest kept pivot {:.1e}, largest dropped {:.1e}), {} in exact arithmetic at {} rational points\n",
-               base.qr_rank, base.smallest_kept_pivot, base.largest_dropped_pivot, base.exact_rank, base.exact_points);
+    fmt::print(
+        "rank {} by QR (smallest kept pivot {:.1e}, largest dropped {:.1e}), {} in exact arithmetic at {} rational "
+        "points\n",
+        base.qr_rank, base.smallest_kept_pivot, base.largest_dropped_pivot, base.exact_rank, base.exact_points);
 }
 
 }  // namespace
 
 void add_base_command(CLI::App& app, action& chosen) {
     const auto options = std::make_shared<base_options>();
-    CLI::App* command = app.add_subcommand("base", "base parameters and how each regroups the standard ones, in symbols");
+    CLI::App* command =
+        app.add_subcommand("base", "base parameters and how each regroups the standard ones, in symbols");
     command->add_option("robot", options->robot, "robot description (.yaml)")->required();
     add_json_option(*command, options->json_file);
     command->callback([options, &chosen] {

@@ -15,7 +15,9 @@ void add_json_option(CLI::App& command, std::string& file) {
     command.add_option("--json", file, "write the result as JSON to this file, - for standard output");
 }
 
-bool prints_text(const std::string& json_file) { return json_file != "-"; }
+bool prints_text(const std::string& json_file) {
+    return json_file != "-";
+}
 
 void write_json(const std::string& file, json content) {
     if (file.empty()) {

@@ -25,8 +25,8 @@ void add_simulate_command(CLI::App& app, action& chosen);
 /// Adds --json FILE (`-` for standard output).
 void add_json_option(CLI::App& command, std::string& file);
 
-/// Writes `content` to the file of --json, by renaming a temporary; nothing where `file` is empty. "idim_version" is put in
-/// front. Throws input_error where it cannot be written.
+/// Writes `content` to the file of --json, by renaming a temporary; nothing where `file` is empty. "idim_version" is
+/// put in front. Throws input_error where it cannot be written.
 void write_json(const std::string& file, json content);
 
 /// True where the text for people should be printed: not when the JSON goes to standard output.

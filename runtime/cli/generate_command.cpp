@@ -40,14 +40,15 @@ json to_json(const generator::generated_model& model) {
             {"operations", operations}};
 }
 
-void print_operations(const char* name, const generator::operation_count& all, const generator::operation_count& rigid) {
-    fmt::print("  {:<17} {:>4} mul {:>4} add {:>2} div   (rigid links alone: {} mul {} add {} div)\n", name, all.mul, all.add,
-               all.div, rigid.mul, rigid.add, rigid.div);
+void print_operations(const char* name, const generator::operation_count& all,
+                      const generator::operation_count& rigid) {
+    fmt::print("  {:<17} {:>4} mul {:>4} add {:>2} div   (rigid links alone: {} mul {} add {} div)\n", name, all.mul,
+               all.add, all.div, rigid.mul, rigid.add, rigid.div);
 }
 
 void print(const generator::generated_model& model) {
-    fmt::print("{}: {} joints, {} base parameters, input {}\n", model.robot, model.joints.size(), model.base.parameters.size(),
-               model.input_hash);
+    fmt::print("{}: {} joints, {} base parameters, input {}\n", model.robot, model.joints.size(),
+               model.base.parameters.size(), model.input_hash);
     print_operations("inverse dynamics", model.operations.inverse_dynamics, model.rigid_operations.inverse_dynamics);
     print_operations("regressor", model.operations.regressor, model.rigid_operations.regressor);
     print_operations("mass matrix", model.operations.mass_matrix, model.rigid_operations.mass_matrix);

@@ -34,7 +34,7 @@ std::map<std::string, double> values_of(const YAML::Node& root, const std::strin
         }
         return values;
     }
-    for (const auto& entry : list && list.IsMap() ? list : root) {
+    for (const auto& entry : list&& list.IsMap() ? list : root) {
         const auto name = entry.first.as<std::string>();
         values[name] = number(entry.second, name);
     }
@@ -64,6 +64,7 @@ std::optional<filter_choice> filter_of(const YAML::Node& root) {
     choice.cutoff = filter["cutoff"].as<double>();
     choice.order = filter["order"].as<int>();
     choice.decimation = filter["decimation"].as<int>();
+    choice.minimum_speed = filter["minimum_speed"] ? filter["minimum_speed"].as<double>() : 0.0;
     choice.reason = "as the parameters were identified";
     return choice;
 }
@@ -78,15 +79,17 @@ identified_parameters read_parameters(const std::string& file, const loaded_robo
     for (std::size_t k = 0; k < names.size(); ++k) {
         const auto found = values.find(names[k].name);
         if (found == values.end()) {
-            throw input_error({file, 0, names[k].name}, fmt::format("missing, expected a value for every base parameter of {}",
-                                                                    robot.generated.robot));
+            throw input_error(
+                {file, 0, names[k].name},
+                fmt::format("missing, expected a value for every base parameter of {}", robot.generated.robot));
         }
         result.chi[static_cast<Eigen::Index>(k)] = found->second;
         values.erase(found);
     }
     if (!values.empty()) {
-        throw input_error({file, 0, values.begin()->first},
-                          fmt::format("no base parameter of {}: identified with another description?", robot.generated.robot));
+        throw input_error(
+            {file, 0, values.begin()->first},
+            fmt::format("no base parameter of {}: identified with another description?", robot.generated.robot));
     }
     return result;
 }

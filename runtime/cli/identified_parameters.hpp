@@ -15,8 +15,8 @@ struct identified_parameters {
     std::optional<filter_choice> filter = {};  ///< the filtering they were identified with, if the file says
 };
 
-/// Throws input_error where the file cannot be read, a base parameter of the robot is missing, or one is named that the robot does
-/// not have.
+/// Throws input_error where the file cannot be read, a base parameter of the robot is missing, or one is named that the
+/// robot does not have.
 identified_parameters read_parameters(const std::string& file, const loaded_robot& robot);
 
 }  // namespace idim::cli

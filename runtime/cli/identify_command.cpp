@@ -34,7 +34,9 @@ struct identification {
     essential_parameters essential;
 };
 
-double relative_percent(double std, double value) { return 100.0 * std / std::abs(value); }
+double relative_percent(double std, double value) {
+    return 100.0 * std / std::abs(value);
+}
 
 json parameters_json(const identification& found) {
     json list = json::array();
@@ -122,8 +124,8 @@ void print_parameters(const identification& found) {
 
 void print_identification(const identification& found, const std::string& method) {
     const estimate& result = found.result;
-    fmt::print("{}: {}, {} rows, condition number {:.3g} ({:.3g} with columns scaled)\n", found.robot.generated.robot, method,
-               result.samples, result.condition_number, result.scaled_condition_number);
+    fmt::print("{}: {}, {} rows, condition number {:.3g} ({:.3g} with columns scaled)\n", found.robot.generated.robot,
+               method, result.samples, result.condition_number, result.scaled_condition_number);
     fmt::print("  {}\n", found.filter.reason);
     print_parameters(found);
     print(result.residual, found.robot);
@@ -144,8 +146,8 @@ void print_truth(const identification& found, const Eigen::VectorXd& truth) {
     fmt::print("  {:<10} {:>13} {:>13} {:>22}\n", "parameter", "truth", "estimate", "error in deviations");
     for (Eigen::Index k = 0; k < truth.size(); ++k) {
         fmt::print("  {:<10} {:>13.6g} {:>13.6g} {:>22.2f}\n",
-                   found.robot.generated.base.parameters[static_cast<std::size_t>(k)].name, truth[k], found.result.chi[k],
-                   (found.result.chi[k] - truth[k]) / std[k]);
+                   found.robot.generated.base.parameters[static_cast<std::size_t>(k)].name, truth[k],
+                   found.result.chi[k], (found.result.chi[k] - truth[k]) / std[k]);
     }
 }
 
@@ -155,8 +157,8 @@ std::string explain(const identification& found, const std::vector<std::string>&
     for (const int k : found.result.not_excited) {
         names.push_back(found.robot.generated.base.parameters[static_cast<std::size_t>(k)].name);
     }
-    std::string text = fmt::format("the data does not excite {}: rank {} of {}", fmt::join(names, " "), found.result.rank,
-                                   found.robot.generated.base.parameters.size());
+    std::string text = fmt::format("the data does not excite {}: rank {} of {}", fmt::join(names, " "),
+                                   found.result.rank, found.robot.generated.base.parameters.size());
     if (!at_rest.empty()) {
         text += fmt::format("; joint {} never moves", fmt::join(at_rest, ", "));
     }
@@ -196,7 +198,8 @@ void add_identify_command(CLI::App& app, action& chosen) {
     CLI::App* command = app.add_subcommand("identify", "base parameters from measured motion, with deviations");
     command->add_option("robot", options->robot, "robot description (.yaml)")->required();
     command->add_option("logs", options->logs, "logs (.csv, .csv.gz)")->required();
-    command->add_option("--method", options->method, "ols, wls (default) or irls")->check(CLI::IsMember({"ols", "wls", "irls"}));
+    command->add_option("--method", options->method, "ols, wls (default) or irls")
+        ->check(CLI::IsMember({"ols", "wls", "irls"}));
     add_filter_options(*command, options->filter);
     command->add_option("--truth", options->truth, "parameters that were simulated, to compare with");
     add_json_option(*command, options->json_file);

@@ -74,12 +74,19 @@ observation observe_logs(const loaded_robot& robot, const std::vector<idim::log>
 }
 
 void add_filter_options(CLI::App& command, filter_request& request) {
-    command.add_option("--cutoff", request.cutoff, "cut-off of the position filter [Hz]; default: chosen from the data");
-    command.add_option("--order", request.order, "order of its Butterworth filter, applied forward and backward; default 4");
+    command.add_option("--cutoff", request.cutoff,
+                       "cut-off of the position filter [Hz]; default: chosen from the data");
+    command.add_option("--order", request.order,
+                       "order of its Butterworth filter, applied forward and backward; default 4");
     command.add_option("--decimation", request.decimation, "keep one row in so many; default: chosen from the data");
+    command.add_option(
+        "--minimum-speed", request.minimum_speed,
+        "leave out rows of a joint slower than this part of its top speed in the log; 0 keeps all; default 0.01");
 }
 
-json finite(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+json finite(double value) {
+    return std::isfinite(value) ? json(value) : json(nullptr);
+}
 
 json to_json(const error_summary& errors, const loaded_robot& robot) {
     json joints = json::array();
@@ -92,7 +99,11 @@ json to_json(const error_summary& errors, const loaded_robot& robot) {
 }
 
 json to_json(const filter_choice& choice) {
-    return {{"cutoff", choice.cutoff}, {"order", choice.order}, {"decimation", choice.decimation}, {"reason", choice.reason}};
+    return {{"cutoff", choice.cutoff},
+            {"order", choice.order},
+            {"decimation", choice.decimation},
+            {"minimum_speed", choice.minimum_speed},
+            {"reason", choice.reason}};
 }
 
 void print(const error_summary& errors, const loaded_robot& robot) {

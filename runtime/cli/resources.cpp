@@ -18,8 +18,8 @@ std::string first_with(const std::vector<fs::path>& folders, const char* probe, 
             return folder.string();
         }
     }
-    throw input_error({"", 0, ""}, std::string("cannot find ") + what + ", looked for " + probe + " in " +
-                                       folders.back().string());
+    throw input_error({"", 0, ""},
+                      std::string("cannot find ") + what + ", looked for " + probe + " in " + folders.back().string());
 }
 
 fs::path installed_prefix() {

@@ -40,7 +40,8 @@ class control_reader {
   public:
     control_reader(const generator::robot_description& robot, int dof) : robot_(robot), dof_(dof) {
         if (!robot.control) {
-            throw input_error({robot.file, 0, "control"}, "missing, expected a control law to simulate the closed loop");
+            throw input_error({robot.file, 0, "control"},
+                              "missing, expected a control law to simulate the closed loop");
         }
         if (robot.control->law != "pd_cascade") {
             throw input_error(robot.control->where, "law " + robot.control->law + " given, expected pd_cascade");
@@ -66,7 +67,8 @@ class control_reader {
 };
 
 /// The declared law; a drive gain that is not given is 1, so that the drive command is the torque.
-pd_cascade declared_law(const generator::robot_description& description, const loaded_robot& robot, const Eigen::VectorXd& chi) {
+pd_cascade declared_law(const generator::robot_description& description, const loaded_robot& robot,
+                        const Eigen::VectorXd& chi) {
     const idim_model_interface& model = robot.model();
     const control_reader control(description, model.dof);
     Eigen::VectorXd gain(model.dof);
@@ -75,7 +77,8 @@ pd_cascade declared_law(const generator::robot_description& description, const l
     }
     pd_cascade law;
     if (control.has("wn")) {
-        law = tune_pd_cascade(control.rate(), control.values("wn"), control.values("zeta"), largest_inertia(model, chi), gain);
+        law = tune_pd_cascade(control.rate(), control.values("wn"), control.values("zeta"), largest_inertia(model, chi),
+                              gain);
     } else {
         law = {control.rate(), control.values("kp"), control.values("kv"), gain, {}};
     }
@@ -122,14 +125,19 @@ void add_simulate_command(CLI::App& app, action& chosen) {
     const auto options = std::make_shared<simulate_options>();
     CLI::App* command = app.add_subcommand("simulate", "closed-loop simulation with noise");
     command->add_option("robot", options->robot, "robot description (.yaml) with a control law")->required();
-    command->add_option("--parameters", options->parameters, "base parameters: result of identify, or a map of names to values")->required();
+    command
+        ->add_option("--parameters", options->parameters,
+                     "base parameters: result of identify, or a map of names to values")
+        ->required();
     command->add_option("--reference", options->reference, "reference motion: CSV with t, qr1..")->required();
     command->add_option("-o,--output", options->output, "log to write (.csv, .csv.gz)")->required();
     command->add_option("--truth", options->truth, "motion without noise to write, with velocities and accelerations");
-    command->add_option("--position-noise", options->position_noise, "standard deviation [rad or m], one or one per joint");
+    command->add_option("--position-noise", options->position_noise,
+                        "standard deviation [rad or m], one or one per joint");
     command->add_option("--torque-noise", options->torque_noise, "standard deviation [N*m or N], one or one per joint");
     command->add_option("--seed", options->seed, "of the noise");
-    command->add_option("--substeps", options->substeps, "Runge-Kutta steps in one control period")->check(CLI::Range(1, 10000));
+    command->add_option("--substeps", options->substeps, "Runge-Kutta steps in one control period")
+        ->check(CLI::Range(1, 10000));
     add_json_option(*command, options->json_file);
     command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }

@@ -16,7 +16,8 @@ struct validate_options {
 };
 
 /// Filters as the parameters were identified, unless the user says otherwise.
-filter_choice filter_for(const validate_options& options, const identified_parameters& parameters, const std::vector<idim::log>& logs) {
+filter_choice filter_for(const validate_options& options, const identified_parameters& parameters,
+                         const std::vector<idim::log>& logs) {
     const filter_request& asked = options.filter;
     if (parameters.filter && !asked.cutoff && !asked.order && !asked.decimation) {
         return *parameters.filter;
@@ -36,7 +37,8 @@ int run(const validate_options& options) {
     content["filter"] = to_json(filter);
     content["logs"] = json::array();
     if (prints_text(options.json_file)) {
-        fmt::print("{}: {} validated on {} rows\n  {}\n", robot.generated.robot, options.result, all.rows(), filter.reason);
+        fmt::print("{}: {} validated on {} rows\n  {}\n", robot.generated.robot, options.result, all.rows(),
+                   filter.reason);
         print(total, robot);
     }
     for (const observation_block& block : all.blocks) {
@@ -59,7 +61,8 @@ void add_validate_command(CLI::App& app, action& chosen) {
     const auto options = std::make_shared<validate_options>();
     CLI::App* command = app.add_subcommand("validate", "errors of an identified model on other data");
     command->add_option("robot", options->robot, "robot description (.yaml)")->required();
-    command->add_option("result", options->result, "result of identify --json, or a map of parameter names to values")->required();
+    command->add_option("result", options->result, "result of identify --json, or a map of parameter names to values")
+        ->required();
     command->add_option("logs", options->logs, "logs (.csv, .csv.gz)")->required();
     add_filter_options(*command, options->filter);
     add_json_option(*command, options->json_file);

@@ -17,6 +17,14 @@ void filter_backward(const Eigen::VectorXd& a, Eigen::Ref<Eigen::VectorXd> z) {
     }
 }
 
+/// x_m = sum_i a_i x_{m-i}, over rows that already hold the input.
+void filter_forward(const Eigen::VectorXd& a, Eigen::Ref<Eigen::VectorXd> z) {
+    for (Eigen::Index m = 1; m < z.size(); ++m) {
+        const Eigen::Index past = std::min(a.size(), m);
+        z[m] += a.head(past).dot(z.segment(m - past, past).reverse());
+    }
+}
+
 /// Corrected Akaike criterion of an autoregression with variance v of the innovations.
 double akaike(double v, Eigen::Index order, Eigen::Index samples) {
     const double n = static_cast<double>(samples);
@@ -69,21 +77,37 @@ double autoregression::correlation_length(Eigen::Index limit) const {
     return std::clamp(std::max(at_zero, squared), 1.0, std::max(1.0, static_cast<double>(limit)));
 }
 
-Eigen::VectorXd autocovariance(const std::vector<Eigen::VectorXd>& segments, Eigen::Index lags) {
-    Eigen::VectorXd sum = Eigen::VectorXd::Zero(lags + 1);
+gapped_series complete_series(const Eigen::VectorXd& value) {
+    return {value, Eigen::VectorXd::Ones(value.size())};
+}
+
+Eigen::Index samples_of(const std::vector<gapped_series>& segments) {
     Eigen::Index samples = 0;
-    for (const Eigen::VectorXd& e : segments) {
-        sum += lagged_products(e, lags);
-        samples += e.size();
+    for (const gapped_series& segment : segments) {
+        samples += (segment.present.array() > 0.0).count();
     }
+    return samples;
+}
+
+Eigen::VectorXd autocovariance(const std::vector<gapped_series>& segments, Eigen::Index lags) {
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(lags + 1);
+    for (const gapped_series& segment : segments) {
+        sum += lagged_products(segment.value, lags);
+    }
+    const Eigen::Index samples = samples_of(segments);
     return samples > 0 ? Eigen::VectorXd(sum / static_cast<double>(samples)) : sum;
 }
 
-Eigen::Index highest_order(const std::vector<Eigen::VectorXd>& segments) {
-    double samples = 0.0;
-    for (const Eigen::VectorXd& e : segments) {
-        samples += static_cast<double>(e.size());
+Eigen::VectorXd lagged_pairs(const std::vector<gapped_series>& segments, Eigen::Index lags) {
+    Eigen::VectorXd count = Eigen::VectorXd::Zero(lags + 1);
+    for (const gapped_series& segment : segments) {
+        count += lagged_products(segment.present, lags);
     }
+    return count;
+}
+
+Eigen::Index highest_order(const std::vector<gapped_series>& segments) {
+    const auto samples = static_cast<double>(samples_of(segments));
     if (samples < 1.0) {
         return 0;
     }
@@ -122,14 +146,17 @@ autoregression fit_autoregression(const Eigen::VectorXd& autocovariance, Eigen::
     return best;
 }
 
-Eigen::VectorXd innovations(const autoregression& model, const Eigen::VectorXd& segment) {
+Eigen::VectorXd innovations(const autoregression& model, const gapped_series& segment) {
     const Eigen::Index p = model.order();
-    if (segment.size() <= p) {
-        return Eigen::VectorXd(0);
-    }
-    Eigen::VectorXd eps = segment.tail(segment.size() - p);
-    for (Eigen::Index i = 0; i < p; ++i) {
-        eps -= model.a[i] * segment.segment(p - 1 - i, eps.size());
+    Eigen::VectorXd filled = segment.value;
+    Eigen::VectorXd eps = Eigen::VectorXd::Zero(std::max(filled.size() - p, Eigen::Index{0}));
+    for (Eigen::Index k = p; k < filled.size(); ++k) {
+        const double predicted = model.a.dot(filled.segment(k - p, p).reverse());
+        if (segment.present[k] > 0.0) {
+            eps[k - p] = filled[k] - predicted;
+        } else {
+            filled[k] = predicted;
+        }
     }
     return eps;
 }
@@ -145,6 +172,18 @@ Eigen::MatrixXd innovation_responses(const autoregression& model, const Eigen::M
         }
     }
     return Z;
+}
+
+Eigen::MatrixXd covariance_times(const autoregression& model, const Eigen::MatrixXd& Z, Eigen::Index n) {
+    // Gamma = innovation Psi Psi' with Psi the responses to an innovation: Z = Psi' X, filtered forward in time it is
+    // Psi Psi' X.
+    Eigen::MatrixXd series = Z;
+    for (Eigen::Index c = 0; c < series.cols(); ++c) {
+        if (!Z.col(c).isZero(0.0)) {
+            filter_forward(model.a, series.col(c));
+        }
+    }
+    return model.innovation * series.bottomRows(n);
 }
 
 Eigen::VectorXd lagged_products(const Eigen::MatrixXd& X, Eigen::Index lags) {

@@ -6,7 +6,8 @@
 
 namespace idim {
 
-Eigen::VectorXd pd_cascade::torque(const Eigen::VectorXd& qr, const Eigen::VectorXd& q, const Eigen::VectorXd& qd) const {
+Eigen::VectorXd pd_cascade::torque(const Eigen::VectorXd& qr, const Eigen::VectorXd& q,
+                                   const Eigen::VectorXd& qd) const {
     Eigen::VectorXd v = kv.cwiseProduct(kp.cwiseProduct(qr - q) - qd);
     if (saturation.size() > 0) {
         v = v.cwiseMax(-saturation).cwiseMin(saturation);
@@ -32,8 +33,8 @@ Eigen::VectorXd largest_inertia(const idim_model_interface& model, const Eigen::
     return largest;
 }
 
-pd_cascade tune_pd_cascade(double rate, const Eigen::VectorXd& wn, const Eigen::VectorXd& zeta, const Eigen::VectorXd& inertia,
-                           const Eigen::VectorXd& drive_gain) {
+pd_cascade tune_pd_cascade(double rate, const Eigen::VectorXd& wn, const Eigen::VectorXd& zeta,
+                           const Eigen::VectorXd& inertia, const Eigen::VectorXd& drive_gain) {
     pd_cascade law;
     law.rate = rate;
     law.kp = wn.cwiseQuotient(2.0 * zeta);

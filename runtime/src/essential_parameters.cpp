@@ -65,7 +65,7 @@ observation with_columns(const observation& rows, const std::vector<int>& kept) 
     reduced.dof = rows.dof;
     reduced.n_base = static_cast<int>(kept.size());
     for (const observation_block& block : rows.blocks) {
-        observation_block columns{block.file, block.rate, block.t, {}, block.Y};
+        observation_block columns{block.file, block.rate, block.t, block.kept, {}, block.Y};
         for (const Eigen::MatrixXd& W : block.W) {
             columns.W.push_back(W(Eigen::all, kept));
         }

@@ -21,6 +21,9 @@ namespace idim {
 namespace {
 
 constexpr int default_order = 4;
+// Of the top speed, the practice of the TX40's published identification (data/tx40/README.md: 1 % of the speed limit):
+// above the noise of a filtered encoder, and a few rows per reversal only.
+constexpr double default_minimum_speed = 0.01;
 constexpr double energy_share = 0.999;
 constexpr double droop = 5e-4;  // loss of |H|^2 at the band edge
 constexpr double visible_rise =
@@ -46,11 +49,11 @@ double range(const Eigen::Ref<const Eigen::VectorXd>& q) {
     return q.maxCoeff() - q.minCoeff();
 }
 
-/// Whether a joint moves, `largest` being the largest range of any joint: a held one drifts by less than a thousandth
+/// Whether a joint moves, `largest` being the largest range of any joint: a held one drifts by less than held_range
 /// of that, or shows noise alone, whose steps are as large as its spread (von Neumann's ratio, 2 for white noise).
 bool moves(const Eigen::Ref<const Eigen::VectorXd>& q, double largest) {
     const Eigen::VectorXd step = q.tail(q.size() - 1) - q.head(q.size() - 1);
-    return range(q) > 1e-3 * largest && step.squaredNorm() < 0.1 * (q.array() - q.mean()).square().sum();
+    return range(q) > held_range * largest && step.squaredNorm() < 0.1 * (q.array() - q.mean()).square().sum();
 }
 
 joint_spectra spectra_of_joint(const log& data, Eigen::Index joint, double rate) {
@@ -157,6 +160,16 @@ void check_request(const filter_request& request, double rate) {
     if (request.decimation && *request.decimation < 1) {
         throw input_error({"", 0, "decimation"}, fmt::format("{} is not a positive number", *request.decimation));
     }
+    if (request.minimum_speed && !(*request.minimum_speed >= 0.0 && *request.minimum_speed < 1.0)) {
+        throw input_error({"", 0, "minimum_speed"},
+                          fmt::format("{:.6g} is not a part of the top speed from 0 to below 1", *request.minimum_speed));
+    }
+}
+
+std::string speed_reason(double minimum_speed) {
+    return minimum_speed > 0.0
+               ? fmt::format("rows slower than {:.3g} % of a joint's top speed left out", 100.0 * minimum_speed)
+               : "rows kept at any speed";
 }
 
 /// A cut-off, the band it leaves undistorted, and why.
@@ -228,10 +241,11 @@ filter_choice choose_filter(const std::vector<log>& logs, const filter_request& 
     choice.cutoff = cutoff.cutoff;
     const double finest = std::max(1.0, std::floor(filter_choice{}.band(rate) / cutoff.band));
     choice.decimation = request.decimation.value_or(static_cast<int>(finest));
-    choice.reason = fmt::format("Butterworth order {} {}; {}; decimation {} {}: the rows keep 0 to {:.3g} Hz",
+    choice.minimum_speed = request.minimum_speed.value_or(default_minimum_speed);
+    choice.reason = fmt::format("Butterworth order {} {}; {}; decimation {} {}: the rows keep 0 to {:.3g} Hz; {}",
                                 choice.order, request.order ? "given" : "by default", cutoff.reason, choice.decimation,
                                 request.decimation ? "given" : "chosen to keep the band the filter leaves alone",
-                                choice.band(rate));
+                                choice.band(rate), speed_reason(choice.minimum_speed));
     return choice;
 }
 

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
+#include <stdexcept>
 
 #include "idim/input_error.hpp"
 #include "idim/zero_phase_filter.hpp"
@@ -75,27 +78,69 @@ int joints_at_once(const idim_model_interface& model, Eigen::Index samples) {
     return static_cast<int>(std::clamp(budget / one_joint, 1.0, static_cast<double>(model.dof)));
 }
 
+/// Samples that the decimation leaves.
+Eigen::Index decimated_samples(const filtered_samples& samples, const filter_choice& choice) {
+    return (samples.samples() + choice.decimation - 1) / choice.decimation;
+}
+
+void check_selection(const row_selection& kept, int joints, Eigen::Index samples) {
+    if (kept.size() != static_cast<std::size_t>(joints)) {
+        throw std::invalid_argument(fmt::format("observe: rows of {} joints for {}", kept.size(), joints));
+    }
+    for (const std::vector<Eigen::Index>& places : kept) {
+        const bool ascend = std::adjacent_find(places.begin(), places.end(), std::greater_equal<>()) == places.end();
+        if (!ascend || (!places.empty() && (places.front() < 0 || places.back() >= samples))) {
+            throw std::invalid_argument(fmt::format("observe: rows do not ascend within 0..{}", samples - 1));
+        }
+    }
+}
+
 observation_block observe_log(const idim_model_interface& model, const filtered_samples& samples,
-                              const filter_choice& choice) {
+                              const filter_choice& choice, const row_selection& kept) {
     observation_block block;
     block.file = samples.file;
     block.rate = samples.rate / choice.decimation;
-    const Eigen::Index rows = (samples.samples() + choice.decimation - 1) / choice.decimation;
-    block.t = samples.t(Eigen::seqN(0, rows, choice.decimation));
+    block.t = samples.t(Eigen::seqN(0, decimated_samples(samples, choice), choice.decimation));
+    block.kept = kept;
+    check_selection(kept, model.dof, block.t.size());
     const int step = joints_at_once(model, samples.samples());
     for (int first = 0; first < model.dof; first += step) {
         const int count = std::min(step, model.dof - first);
         const Eigen::MatrixXd W = decimate(sample_regressor(model, samples, first, count), choice.decimation);
         for (int joint = 0; joint < count; ++joint) {
-            block.W.emplace_back(W.middleCols(Eigen::Index{joint} * model.n_base, model.n_base));
+            const auto columns = Eigen::seqN(Eigen::Index{joint} * model.n_base, model.n_base);
+            block.W.emplace_back(W(kept[first + joint], columns));
         }
     }
-    const Eigen::MatrixXd Y =
-        samples.tau.size() > 0 ? decimate(samples.tau, choice.decimation) : Eigen::MatrixXd(0, model.dof);
-    for (int joint = 0; joint < model.dof; ++joint) {
-        block.Y.emplace_back(Y.col(joint));
+    block.Y.resize(static_cast<std::size_t>(model.dof));
+    if (samples.tau.size() > 0) {
+        const Eigen::MatrixXd Y = decimate(samples.tau, choice.decimation);
+        for (int joint = 0; joint < model.dof; ++joint) {
+            block.Y[joint] = Y(kept[joint], joint);
+        }
     }
     return block;
+}
+
+/// Places where |speed| is at least `part` of its maximum.
+std::vector<Eigen::Index> moving_rows(const Eigen::Ref<const Eigen::VectorXd>& speed, double part) {
+    const double slowest = part * speed.cwiseAbs().maxCoeff();
+    std::vector<Eigen::Index> places;
+    for (Eigen::Index k = 0; k < speed.size(); ++k) {
+        if (std::abs(speed[k]) >= slowest) {
+            places.push_back(k);
+        }
+    }
+    return places;
+}
+
+void check_common_rate(const std::vector<filtered_samples>& logs) {
+    std::vector<named_rate> rates;
+    rates.reserve(logs.size());
+    for (const filtered_samples& samples : logs) {
+        rates.push_back({samples.file, samples.rate});
+    }
+    require_common_rate(rates);
 }
 
 }  // namespace
@@ -116,20 +161,59 @@ Eigen::Index observation::rows() const {
     return count;
 }
 
+double observation::share_left_out() const {
+    Eigen::Index samples = 0;
+    for (const observation_block& block : blocks) {
+        samples += block.t.size() * dof;
+    }
+    return samples > 0 ? 1.0 - static_cast<double>(rows()) / static_cast<double>(samples) : 0.0;
+}
+
+row_selection all_rows(int joints, Eigen::Index samples) {
+    std::vector<Eigen::Index> places(static_cast<std::size_t>(samples));
+    std::iota(places.begin(), places.end(), Eigen::Index{0});
+    return row_selection(static_cast<std::size_t>(joints), places);
+}
+
+row_selection select_rows(const filtered_samples& samples, const filter_choice& choice) {
+    const int joints = static_cast<int>(samples.q.cols());
+    row_selection kept = all_rows(joints, decimated_samples(samples, choice));
+    if (choice.minimum_speed == 0.0 || samples.samples() == 0) {
+        return kept;
+    }
+    const Eigen::VectorXd range = samples.q.colwise().maxCoeff() - samples.q.colwise().minCoeff();
+    const Eigen::MatrixXd speed = decimate(samples.qd, choice.decimation);
+    for (int joint = 0; joint < joints; ++joint) {
+        if (range[joint] > held_range * range.maxCoeff()) {
+            kept[joint] = moving_rows(speed.col(joint), choice.minimum_speed);
+        }
+    }
+    return kept;
+}
+
 observation observe(const idim_model_interface& model, const std::vector<filtered_samples>& logs,
                     const filter_choice& choice) {
-    std::vector<named_rate> rates;
-    rates.reserve(logs.size());
+    std::vector<row_selection> kept;
+    kept.reserve(logs.size());
     for (const filtered_samples& samples : logs) {
-        rates.push_back({samples.file, samples.rate});
+        check_log(model, samples, choice);
+        kept.push_back(select_rows(samples, choice));
     }
-    require_common_rate(rates);
+    return observe(model, logs, choice, kept);
+}
+
+observation observe(const idim_model_interface& model, const std::vector<filtered_samples>& logs,
+                    const filter_choice& choice, const std::vector<row_selection>& kept) {
+    check_common_rate(logs);
+    if (kept.size() != logs.size()) {
+        throw std::invalid_argument(fmt::format("observe: rows of {} logs for {}", kept.size(), logs.size()));
+    }
     observation rows;
     rows.dof = model.dof;
     rows.n_base = model.n_base;
-    for (const filtered_samples& samples : logs) {
-        check_log(model, samples, choice);
-        rows.blocks.push_back(observe_log(model, samples, choice));
+    for (std::size_t i = 0; i < logs.size(); ++i) {
+        check_log(model, logs[i], choice);
+        rows.blocks.push_back(observe_log(model, logs[i], choice, kept[i]));
     }
     return rows;
 }

@@ -16,7 +16,7 @@ struct sandwich {
 /// Covariance of chi robust to an autocorrelated residual,
 ///     C = (W'W)^-1 [sum over joints and lags of gamma_j(l) sum_k x_k x_{k+l}'] (W'W)^-1,
 /// W weighted joint by joint, gamma_j the autocovariance of an autoregression fitted to the residual of joint j over
-/// all blocks, never across a seam; all lags count, with no bandwidth to choose, and the bracket is Z'Z >= 0 by
+/// all blocks, never across a seam and across the gaps of left-out rows at the distance in time; all lags count, with no bandwidth to choose, and the bracket is Z'Z >= 0 by
 /// construction (innovation_responses). Assumes the residual of a joint stationary, the rate of the rows the same in
 /// all blocks.
 ///
@@ -26,8 +26,8 @@ struct sandwich {
 /// of the same kind]. This is the correction for degrees of freedom too.
 ///
 /// Residuals of different joints at the same instant may be correlated (torque errors that several axes feel together):
-/// the innovations of the joints' models are taken as correlated at lag 0, by their sample correlation, where the
-/// joints have the same number of rows in every block.
+/// the innovations of the joints' models are taken as correlated at lag 0, by their sample correlation over the
+/// instants at which both joints have a row.
 ///
 /// joint_weight: [n] factor of the rows of each joint; qr: the factor of those weighted rows, of full rank; residual:
 /// the weighted residual, for a robust loss the weighted score of each row instead.

@@ -35,18 +35,25 @@ class gaussian {
 class plant {
   public:
     plant(const idim_model_interface& model, const Eigen::VectorXd& chi, const Eigen::VectorXd& q)
-        : model_(model), chi_(chi), temperature_(Eigen::VectorXd::Constant(model.dof, 20.0)), q_(q), qd_(Eigen::VectorXd::Zero(model.dof)) {}
+        : model_(model),
+          chi_(chi),
+          temperature_(Eigen::VectorXd::Constant(model.dof, 20.0)),
+          q_(q),
+          qd_(Eigen::VectorXd::Zero(model.dof)) {}
 
     const Eigen::VectorXd& q() const { return q_; }
     const Eigen::VectorXd& qd() const { return qd_; }
 
-    Eigen::VectorXd acceleration(double t, const Eigen::VectorXd& q, const Eigen::VectorXd& qd, const Eigen::VectorXd& tau) const {
+    Eigen::VectorXd acceleration(double t, const Eigen::VectorXd& q, const Eigen::VectorXd& qd,
+                                 const Eigen::VectorXd& tau) const {
         Eigen::VectorXd qdd(model_.dof);
-        const int joint = model_.forward_dynamics(q.data(), qd.data(), tau.data(), t, temperature_.data(), chi_.data(), qdd.data());
+        const int joint =
+            model_.forward_dynamics(q.data(), qd.data(), tau.data(), t, temperature_.data(), chi_.data(), qdd.data());
         if (joint != 0) {
-            throw data_error(fmt::format("simulation at t = {:.4f} s: the inertia matrix is not positive definite at joint {}; the "
-                                         "parameters are not physical",
-                                         t, model_.joint_names[joint - 1]));
+            throw data_error(
+                fmt::format("simulation at t = {:.4f} s: the inertia matrix is not positive definite at joint {}; the "
+                            "parameters are not physical",
+                            t, model_.joint_names[joint - 1]));
         }
         return qdd;
     }
@@ -69,9 +76,10 @@ class plant {
         constexpr double fastest = 1e4;  // rad/s or m/s: no robot moves like that
         for (int j = 0; j < model_.dof; ++j) {
             if (!(std::abs(qd_[j]) < fastest)) {
-                throw data_error(fmt::format("simulation diverges at t = {:.4f} s, joint {}: lower the bandwidth or raise the rate of "
-                                             "the control law",
-                                             t, model_.joint_names[j]));
+                throw data_error(fmt::format(
+                    "simulation diverges at t = {:.4f} s, joint {}: lower the bandwidth or raise the rate of "
+                    "the control law",
+                    t, model_.joint_names[j]));
             }
         }
     }

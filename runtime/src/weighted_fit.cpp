@@ -69,6 +69,21 @@ std::vector<double> deviations_of(const observation& rows, const joint_series& r
     return deviation;
 }
 
+void check_places(const observation_block& block, std::size_t joints) {
+    if (block.kept.size() != joints) {
+        throw std::invalid_argument(fmt::format("observation of {} joints has a block that keeps rows of {}", joints,
+                                                block.kept.size()));
+    }
+    for (std::size_t j = 0; j < joints; ++j) {
+        const std::vector<Eigen::Index>& places = block.kept[j];
+        const bool inside = places.empty() || (places.front() >= 0 && places.back() < block.t.size());
+        if (!inside || static_cast<Eigen::Index>(places.size()) != block.W[j].rows()) {
+            throw std::invalid_argument(fmt::format("joint {}: W has {} rows, {} of {} samples are kept", j + 1,
+                                                    block.W[j].rows(), places.size(), block.t.size()));
+        }
+    }
+}
+
 }  // namespace
 
 void check_shapes(const observation& rows) {
@@ -78,6 +93,7 @@ void check_shapes(const observation& rows) {
             throw std::invalid_argument(fmt::format("observation of {} joints has a block with W of {} and Y of {}",
                                                     joints, block.W.size(), block.Y.size()));
         }
+        check_places(block, joints);
         for (std::size_t j = 0; j < joints; ++j) {
             if (block.W[j].cols() != rows.n_base || block.W[j].rows() != block.Y[j].size()) {
                 throw std::invalid_argument(

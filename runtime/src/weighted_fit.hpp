@@ -7,8 +7,8 @@
 
 namespace idim {
 
-/// Throws std::invalid_argument if a block has not one W (rows x n_base) and one Y (rows) per joint: a broken
-/// invariant.
+/// Throws std::invalid_argument if a block has not one W (rows x n_base), one Y (rows) and the place of every row per
+/// joint: a broken invariant.
 void check_shapes(const observation& rows);
 
 /// Y - W chi, [joint][block].

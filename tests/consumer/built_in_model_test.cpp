@@ -39,7 +39,8 @@ TEST(BuiltInModel, HeadersWorkInSinglePrecision) {
 
 TEST(BuiltInModel, IdentifiersTakeItAsItIs) {
     const idim_model_interface& model = *idim_model_scara();
-    const Eigen::VectorXd truth = (Eigen::VectorXd(8) << 3.44, 0.03, 0.82, 0.062, 0.242, 0.014, 0.013, 0.137).finished();
+    const Eigen::VectorXd truth =
+        (Eigen::VectorXd(8) << 3.44, 0.03, 0.82, 0.062, 0.242, 0.014, 0.013, 0.137).finished();
     const double rate = 200.0;
     idim::filtered_samples samples;
     samples.file = "closed form";

@@ -5,6 +5,19 @@
 
 namespace idim {
 
+/// Samples of a series on a uniform grid, some of which may be missing: the gaps of left-out rows keep the distance in time of
+/// what stands on their two sides.
+struct gapped_series {
+    Eigen::VectorXd value;    ///< 0 where missing
+    Eigen::VectorXd present;  ///< 1, or 0 where missing
+};
+
+/// A series without gaps.
+gapped_series complete_series(const Eigen::VectorXd& value);
+
+/// Samples present in all segments.
+Eigen::Index samples_of(const std::vector<gapped_series>& segments);
+
 /// Stationary autoregressive model of a series, e_k = sum_i a_i e_{k-i} + eps_k with eps white. Fitted by the
 /// Yule-Walker equations, so it is stable and its autocovariance agrees with the sample's up to the order. An
 /// autoregressive spectrum is positive at every frequency, hence every variance computed with it is; and it follows a
@@ -26,27 +39,37 @@ struct autoregression {
     double correlation_length(Eigen::Index limit) const;
 };
 
-/// Autocovariance about zero at lags 0..lags, pooled over segments, products never taken across a seam: sum of e_k
-/// e_{k+l} divided by the number of all samples, which keeps the sequence positive semi-definite. Zeros if there are no
-/// samples.
-Eigen::VectorXd autocovariance(const std::vector<Eigen::VectorXd>& segments, Eigen::Index lags);
+/// Autocovariance about zero at lags 0..lags, pooled over segments, products never taken across a seam and of present
+/// samples only: sum of e_k e_{k+l} divided by the number of all samples, which keeps the sequence positive
+/// semi-definite. Zeros if there are no samples.
+Eigen::VectorXd autocovariance(const std::vector<gapped_series>& segments, Eigen::Index lags);
+
+/// Pairs (k, k + l) of present samples that the segments hold at lags 0..lags, [lags + 1]. Dividing the products by them
+/// instead takes off the bias of autocovariance that comes with seams and gaps [Parzen 1963, "On spectral analysis with
+/// missing observations and amplitude modulation", Sankhya A 25].
+Eigen::VectorXd lagged_pairs(const std::vector<gapped_series>& segments, Eigen::Index lags);
 
 /// Highest order worth trying, 10 log10 of the number of samples [Schwert 1989; the default of R's ar()], but at most a
 /// quarter of the mean segment.
-Eigen::Index highest_order(const std::vector<Eigen::VectorXd>& segments);
+Eigen::Index highest_order(const std::vector<gapped_series>& segments);
 
 /// Yule-Walker fit to the autocovariance at lags 0..highest order of `samples` samples, by Levinson's recursion, order
 /// chosen by the corrected Akaike criterion [Hurvich and Tsai 1989]. An autocovariance that stops being positive
 /// definite ends the recursion there; a series of zeros gives order 0 and no variance.
 autoregression fit_autoregression(const Eigen::VectorXd& autocovariance, Eigen::Index samples);
 
-/// Innovations eps_k of a segment [n - p]; the first p samples have no full past and are left out.
-Eigen::VectorXd innovations(const autoregression& model, const Eigen::VectorXd& segment);
+/// Innovations eps_k of a segment [n - p]; the first p samples have no full past and are left out. Missing samples are
+/// replaced by their prediction: their own innovation is 0, those after a gap hold the error of that prediction too.
+Eigen::VectorXd innovations(const autoregression& model, const gapped_series& segment);
 
 /// Responses Z of the columns of X (n x b) to one innovation, ((n + tail) x b): with it X' Gamma X = innovation * Z'Z,
 /// Gamma the n x n Toeplitz autocovariance of the model. Row m belongs to the innovation of sample m - tail. `tail`
 /// must be at least the memory of the model for the equality to hold.
+/// Rows of zeros in X are samples that do not count, so that gaps need nothing else.
 Eigen::MatrixXd innovation_responses(const autoregression& model, const Eigen::MatrixXd& X, Eigen::Index tail);
+
+/// Gamma X (n x b) from the responses Z = innovation_responses(model, X, tail).
+Eigen::MatrixXd covariance_times(const autoregression& model, const Eigen::MatrixXd& Z, Eigen::Index n);
 
 /// Sum over columns c of sum_k X(k, c) X(k + l, c) at lags 0..lags, [lags + 1].
 Eigen::VectorXd lagged_products(const Eigen::MatrixXd& X, Eigen::Index lags);

@@ -29,17 +29,18 @@ class compiled_model {
 
 /// Where and how models are compiled; every field has a default.
 struct compile_options {
-    std::string cache;     ///< folder; default $XDG_CACHE_HOME/idim, else $HOME/.cache/idim, else a private temporary folder
+    std::string
+        cache;  ///< folder; default $XDG_CACHE_HOME/idim, else $HOME/.cache/idim, else a private temporary folder
     std::string compiler;  ///< default $CXX, else the first of c++, g++, clang++ on the PATH
 };
 
 /// Compiles the .cpp files of `sources` into one shared object and loads it, or takes it from the cache.
 ///
-/// A cache entry's key is the SHA-256 of all sources, the compiler's path and version and the flags. An entry is used only if the
-/// folder and its files belong to this user and no one else may write them, its sources are these byte for byte, the shared
-/// object's hash is the recorded one, and the loaded model has this ABI and `input_hash`; anything else is rebuilt. Two
-/// processes may ask for the same entry at once.
-/// Throws std::runtime_error with the compiler's message where it fails, or where there is no compiler.
+/// A cache entry's key is the SHA-256 of all sources, the compiler's path and version and the flags. An entry is used
+/// only if the folder and its files belong to this user and no one else may write them, its sources are these byte for
+/// byte, the shared object's hash is the recorded one, and the loaded model has this ABI and `input_hash`; anything
+/// else is rebuilt. Two processes may ask for the same entry at once. Throws std::runtime_error with the compiler's
+/// message where it fails, or where there is no compiler.
 compiled_model compile_model(const std::vector<model_source>& sources, const std::string& input_hash,
                              const compile_options& options = {});
 

@@ -20,11 +20,12 @@ struct pd_cascade {
     Eigen::VectorXd torque(const Eigen::VectorXd& qr, const Eigen::VectorXd& q, const Eigen::VectorXd& qd) const;
 };
 
-/// J_j = largest M_jj(q) over the joint space [IV 38], by sampling: revolute joints over a turn, prismatic ones over -1..1 m.
+/// J_j = largest M_jj(q) over the joint space [IV 38], by sampling: revolute joints over a turn, prismatic ones over
+/// -1..1 m.
 Eigen::VectorXd largest_inertia(const idim_model_interface& model, const Eigen::VectorXd& chi);
 
 /// Gains from the bandwidth: kp = wn / (2 zeta), kv = 2 zeta wn J / g [IV 44-45]. wn [rad/s] and zeta are [n].
-pd_cascade tune_pd_cascade(double rate, const Eigen::VectorXd& wn, const Eigen::VectorXd& zeta, const Eigen::VectorXd& inertia,
-                           const Eigen::VectorXd& drive_gain);
+pd_cascade tune_pd_cascade(double rate, const Eigen::VectorXd& wn, const Eigen::VectorXd& zeta,
+                           const Eigen::VectorXd& inertia, const Eigen::VectorXd& drive_gain);
 
 }  // namespace idim

@@ -14,7 +14,11 @@ struct filter_request {
     std::optional<double> cutoff;   ///< Butterworth cut-off of the position filter [Hz]
     std::optional<int> order;       ///< its order (applied forward and backward), default 4
     std::optional<int> decimation;  ///< one sample in n_d of the parallel decimation
+    std::optional<double> minimum_speed;  ///< part of a joint's top speed below which its rows are left out, default 0.01
 };
+
+/// A joint whose position stays within this part of the largest range of any joint of a log is held in that log.
+inline constexpr double held_range = 1e-3;
 
 /// The filtering that is applied, the same for every log of one identification, and why.
 struct filter_choice {
@@ -22,6 +26,7 @@ struct filter_choice {
     int order = 4;
     int decimation = 1;
     std::string reason;  ///< one sentence for the report: what was given, what was chosen from the data and by which figure
+    double minimum_speed = 0.0;  ///< part of a joint's top speed in a log, see select_rows (observation.hpp); 0 keeps all rows
 
     /// Upper edge of the band that the decimated rows keep [Hz], 0.8 f_m / (2 n_d) (METHODS.md, IDIM-LS 3).
     double band(double rate) const;

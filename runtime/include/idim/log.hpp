@@ -6,8 +6,8 @@
 
 namespace idim {
 
-/// One recorded motion, joint side, SI units, as read from a file: samples in rows, joints in columns (FORMATS.md, "Log").
-/// A matrix that the file does not have is empty (0 x 0).
+/// One recorded motion, joint side, SI units, as read from a file: samples in rows, joints in columns (FORMATS.md,
+/// "Log"). A matrix that the file does not have is empty (0 x 0).
 struct log {
     std::string file;
     Eigen::VectorXd t;     ///< [s], strictly increasing
@@ -31,12 +31,13 @@ struct log_columns {
     bool torque_required = true;           ///< a reference file has none
 };
 
-/// Reads a CSV or gzip CSV log. Throws input_error naming file, line and column for: a missing column, too few or too many
-/// columns in a row, text or NaN or infinity in a number, time that does not increase, no rows, `v` without a drive gain.
+/// Reads a CSV or gzip CSV log. Throws input_error naming file, line and column for: a missing column, too few or too
+/// many columns in a row, text or NaN or infinity in a number, time that does not increase, no rows, `v` without a
+/// drive gain.
 log read_log(const std::string& file, const log_columns& columns);
 
-/// Writes the non-empty columns of a log as CSV, numbers printed so that they read back exactly. Throws input_error if the
-/// file cannot be written.
+/// Writes the non-empty columns of a log as CSV, numbers printed so that they read back exactly. Throws input_error if
+/// the file cannot be written.
 void write_log(const std::string& file, const log& data);
 
 }  // namespace idim

@@ -1,0 +1,148 @@
+#include "idim/simulation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "idim/input_error.hpp"
+
+namespace {
+
+/// One mass on a rail with viscous and Coulomb friction: chi = (M, Fv, Fc).
+void mass_matrix(const double*, const double* chi, double* M) {
+    M[0] = chi[0];
+}
+
+int forward_dynamics(const double*, const double* qd, const double* tau, double, const double*, const double* chi,
+                     double* qdd) {
+    const double friction = chi[1] * qd[0] + chi[2] * (static_cast<double>(qd[0] > 0) - static_cast<double>(qd[0] < 0));
+    qdd[0] = (tau[0] - friction) / chi[0];
+    return chi[0] > 0.0 ? 0 : 1;
+}
+
+const char* const joint_names[] = {"rail"};
+const int joint_is_prismatic[] = {1};
+
+idim_model_interface rail() {
+    idim_model_interface model{};
+    model.abi = IDIM_MODEL_ABI;
+    model.robot = "rail";
+    model.dof = 1;
+    model.n_base = 3;
+    model.joint_names = joint_names;
+    model.joint_is_prismatic = joint_is_prismatic;
+    model.mass_matrix = mass_matrix;
+    model.forward_dynamics = forward_dynamics;
+    return model;
+}
+
+Eigen::VectorXd one(double value) {
+    return Eigen::VectorXd::Constant(1, value);
+}
+
+idim::log step_reference(double height, double seconds) {
+    idim::log reference;
+    reference.t = Eigen::VectorXd::LinSpaced(3, 0.0, 2.0);
+    reference.t << 0.0, 1e-9, seconds;
+    reference.qr.resize(3, 1);
+    reference.qr << 0.0, height, height;
+    return reference;
+}
+
+idim::measurement_noise no_noise() {
+    return {one(0.0), one(0.0), 1};
+}
+
+TEST(Simulation, StepResponseHasTheDeclaredBandwidthAndDamping) {
+    const idim_model_interface model = rail();
+    const Eigen::VectorXd chi = (Eigen::VectorXd(3) << 3.0, 0.0, 0.0).finished();
+    const double wn = 4.0;
+    const double zeta = 0.7;
+    const auto law = idim::tune_pd_cascade(5000.0, one(wn), one(zeta), idim::largest_inertia(model, chi), one(35.0));
+    const auto motion = idim::simulate(model, chi, law, step_reference(0.1, 3.0), no_noise());
+    const double wd = wn * std::sqrt(1.0 - zeta * zeta);
+    for (Eigen::Index k = 0; k < motion.truth.samples(); k += 500) {
+        const double t = motion.truth.t[k];
+        // Second-order step response [IV 42].
+        const double expected =
+            0.1 * (1.0 - std::exp(-zeta * wn * t) *
+                             (std::cos(wd * t) + zeta / std::sqrt(1.0 - zeta * zeta) * std::sin(wd * t)));
+        // The sampled loop lags by about a period of 0.2 ms at speeds up to 0.2 m/s.
+        EXPECT_NEAR(motion.truth.q(k, 0), expected, 1e-4) << t;
+    }
+}
+
+TEST(Simulation, RungeKuttaConvergesWithItsOrder) {
+    const idim_model_interface model = rail();
+    const Eigen::VectorXd chi = (Eigen::VectorXd(3) << 1.0, 50.0, 0.0).finished();  // time constant of 20 ms
+    const auto law = idim::tune_pd_cascade(10.0, one(2.0), one(1.0), one(1.0), one(1.0));
+    const auto end = [&](int substeps) {
+        const auto motion = idim::simulate(model, chi, law, step_reference(1.0, 1.0), no_noise(), substeps);
+        return motion.truth.q(motion.truth.samples() - 1, 0);
+    };
+    const double exact = end(640);
+    const double ratio = std::abs(end(10) - exact) / std::abs(end(20) - exact);
+    EXPECT_GT(ratio, 11.0);  // 16 for the leading term of order four, higher terms at a step of half a time constant
+    EXPECT_LT(ratio, 26.0);
+}
+
+TEST(Simulation, TheLoggedTorqueIsNeitherEarlyNorLate) {
+    // A ramp of the command is held in steps; the mean of the steps before and after a sample is the ramp half a period
+    // back from the command, which is where the motion answers to.
+    const idim_model_interface model = rail();
+    const Eigen::VectorXd chi = (Eigen::VectorXd(3) << 2.0, 0.0, 0.0).finished();
+    const auto law = idim::tune_pd_cascade(100.0, one(3.0), one(1.0), one(2.0), one(1.0));
+    const auto motion = idim::simulate(model, chi, law, step_reference(0.5, 2.0), no_noise());
+    double with_mean = 0.0;
+    double with_command = 0.0;
+    for (Eigen::Index k = 5; k + 1 < motion.truth.samples(); ++k) {
+        const double acceleration = (motion.truth.qd(k + 1, 0) - motion.truth.qd(k - 1, 0)) / 0.02;
+        with_mean += std::abs(motion.measured.tau(k, 0) - 2.0 * acceleration);
+        with_command += std::abs(motion.truth.tau(k, 0) - 2.0 * acceleration);
+    }
+    EXPECT_LT(with_mean, 1e-6 * with_command);
+}
+
+TEST(Simulation, NoiseHasTheGivenDeviationAndTheSameSeedGivesTheSameLog) {
+    const idim_model_interface model = rail();
+    const Eigen::VectorXd chi = (Eigen::VectorXd(3) << 3.0, 1.0, 0.5).finished();
+    const auto law = idim::tune_pd_cascade(1000.0, one(4.0), one(1.0), one(3.0), one(1.0));
+    const idim::measurement_noise noise{one(1e-4), one(0.2), 7};
+    const auto first = idim::simulate(model, chi, law, step_reference(0.2, 10.0), noise);
+    const auto second = idim::simulate(model, chi, law, step_reference(0.2, 10.0), noise);
+    EXPECT_EQ(first.measured.q, second.measured.q);
+    EXPECT_EQ(first.measured.tau, second.measured.tau);
+    const Eigen::VectorXd error = first.measured.q - first.truth.q;
+    const double deviation = std::sqrt(error.squaredNorm() / static_cast<double>(error.size()));
+    EXPECT_NEAR(deviation, 1e-4, 3e-6);  // 10 001 draws: 0.7 % standard error, four of them
+}
+
+TEST(Simulation, SaturationLimitsTheTorque) {
+    const idim_model_interface model = rail();
+    const Eigen::VectorXd chi = (Eigen::VectorXd(3) << 3.0, 1.0, 0.5).finished();
+    auto law = idim::tune_pd_cascade(1000.0, one(40.0), one(1.0), one(3.0), one(2.0));
+    law.saturation = one(5.0);
+    const auto motion = idim::simulate(model, chi, law, step_reference(1.0, 1.0), no_noise());
+    EXPECT_EQ(motion.truth.tau.cwiseAbs().maxCoeff(), 10.0);
+}
+
+TEST(Simulation, FailuresNameTimeAndJoint) {
+    const idim_model_interface model = rail();
+    const auto law = idim::tune_pd_cascade(100.0, one(4.0), one(1.0), one(3.0), one(1.0));
+    const auto message = [&](const Eigen::VectorXd& chi, const idim::pd_cascade& with) -> std::string {
+        try {
+            idim::simulate(model, chi, with, step_reference(1.0, 100.0), no_noise());
+        } catch (const idim::data_error& error) {
+            return error.what();
+        }
+        return "no error";
+    };
+    EXPECT_EQ(message((Eigen::VectorXd(3) << -1.0, 0.0, 0.0).finished(), law),
+              "simulation at t = 0.0000 s: the inertia matrix is not positive definite at joint rail; the parameters "
+              "are not physical");
+    const auto wild = idim::tune_pd_cascade(10.0, one(500.0), one(1.0), one(3.0), one(1.0));
+    EXPECT_NE(message((Eigen::VectorXd(3) << 3.0, 0.0, 0.0).finished(), wild).find("diverges at t = "),
+              std::string::npos);
+}
+
+}  // namespace

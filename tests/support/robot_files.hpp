@@ -1,0 +1,61 @@
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "support/temporary_folder.hpp"
+
+namespace idim::test {
+
+inline const std::string source_folder = IDIM_SOURCE_DIR;
+inline const std::string templates_folder = source_folder + "/templates";
+
+inline std::string read_text(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file) {
+        throw std::runtime_error("cannot read " + path.string());
+    }
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+inline std::string robot_file(const std::string& robot) {
+    return source_folder + "/robots/" + robot + "/" + robot + ".yaml";
+}
+
+/// Every folder of robots/, in alphabetical order.
+inline std::vector<std::string> robot_names() {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(source_folder + "/robots")) {
+        if (entry.is_directory()) {
+            names.push_back(entry.path().filename().string());
+        }
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+/// Text of a robot's description with other effects: `effects` is what stands behind "effects:".
+inline std::string with_effects(const std::string& robot, const std::string& effects) {
+    std::istringstream lines(read_text(robot_file(robot)));
+    std::string text;
+    bool inside = false;
+    for (std::string line; std::getline(lines, line);) {
+        inside = line.rfind("effects:", 0) == 0 || (inside && line.rfind("  ", 0) == 0);
+        text += inside ? "" : line + "\n";
+    }
+    return text + "effects: " + effects + "\n";
+}
+
+/// Writes such a variant to `folder` and returns its path.
+inline std::string write_variant(const temporary_folder& folder, const std::string& robot, const std::string& effects) {
+    return folder.write(robot + ".yaml", with_effects(robot, effects));
+}
+
+}  // namespace idim::test
