@@ -214,7 +214,7 @@ struct number_restorer : public GiNaC::map_function {
 };
 
 GiNaC::prototype_table readers() {
-    const GiNaC::prototype_table all = GiNaC::get_default_reader();
+    const GiNaC::prototype_table& all = GiNaC::get_default_reader();
     GiNaC::prototype_table chosen;
     for (const std::string& name : function_names()) {
         const auto found = all.find({name, 1});

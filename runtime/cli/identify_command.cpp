@@ -165,11 +165,22 @@ std::string explain(const identification& found, const std::vector<std::string>&
     return text;
 }
 
+std::string explain_standstill(const loaded_robot& robot, const std::vector<std::string>& at_rest) {
+    std::vector<std::string> names;
+    for (const auto& parameter : robot.generated.base.parameters) {
+        names.push_back(parameter.name);
+    }
+    return fmt::format("the data does not excite {}: joint {} never moves", fmt::join(names, " "), fmt::join(at_rest, ", "));
+}
+
 int run(const identify_options& options) {
     loaded_robot robot = load_robot(options.robot);
     const Eigen::VectorXd truth = options.truth.empty() ? Eigen::VectorXd() : read_parameters(options.truth, robot).chi;
     const std::vector<idim::log> logs = read_logs(robot, options.logs);
     const std::vector<std::string> at_rest = joints_at_rest(robot, logs);
+    if (at_rest.size() == robot.generated.joints.size()) {
+        throw data_error(explain_standstill(robot, at_rest));
+    }
     const filter_choice filter = choose_filter(logs, options.filter);
     observation rows = observe_logs(robot, logs, filter);
     estimate result = least_squares(rows, methods().at(options.method));

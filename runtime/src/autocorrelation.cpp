@@ -8,6 +8,7 @@ namespace idim {
 namespace {
 
 constexpr double forgotten = 1e-4;
+constexpr double shortest_share = 0.25;  // of the samples, for a reflection coefficient to be taken from them
 
 /// x_m = sum_i a_i x_{m+i}, over `tail` rows before the first one of Z and over the rows that already hold the input.
 void filter_backward(const Eigen::VectorXd& a, Eigen::Ref<Eigen::VectorXd> z) {
@@ -23,6 +24,53 @@ void filter_forward(const Eigen::VectorXd& a, Eigen::Ref<Eigen::VectorXd> z) {
         const Eigen::Index past = std::min(a.size(), m);
         z[m] += a.head(past).dot(z.segment(m - past, past).reverse());
     }
+}
+
+/// Coefficients of one order more, by Levinson's recursion.
+Eigen::VectorXd raised(const Eigen::VectorXd& a, double reflection) {
+    Eigen::VectorXd next(a.size() + 1);
+    next << a - reflection * a.reverse(), reflection;
+    return next;
+}
+
+/// Prediction errors of one segment at the present order of Burg's recursion.
+struct lattice {
+    Eigen::VectorXd forward;
+    Eigen::VectorXd backward;
+    Eigen::VectorXi run;  ///< samples without a gap that end at each
+};
+
+lattice start_lattice(const gapped_series& segment) {
+    lattice errors{segment.value, segment.value, Eigen::VectorXi::Zero(segment.value.size())};
+    for (Eigen::Index k = 0; k < errors.run.size(); ++k) {
+        errors.run[k] = segment.present[k] > 0.0 ? (k > 0 ? errors.run[k - 1] : 0) + 1 : 0;
+    }
+    return errors;
+}
+
+/// The reflection coefficient of order p, applied to the errors; 0 if fewer than `least` samples have p before them.
+double reflect(std::vector<lattice>& segments, Eigen::Index p, double least) {
+    double products = 0.0;
+    double power = 0.0;
+    double count = 0.0;
+    for (const lattice& errors : segments) {
+        for (Eigen::Index k = p; k < errors.run.size(); ++k) {
+            if (errors.run[k] > p) {
+                products += errors.forward[k] * errors.backward[k - 1];
+                power += errors.forward[k] * errors.forward[k] + errors.backward[k - 1] * errors.backward[k - 1];
+                count += 1.0;
+            }
+        }
+    }
+    const double reflection = power > 0.0 && count >= least ? 2.0 * products / power : 0.0;
+    for (lattice& errors : segments) {
+        for (Eigen::Index k = errors.run.size() - 1; k >= p; --k) {
+            const double forward = errors.forward[k];
+            errors.forward[k] -= reflection * errors.backward[k - 1];
+            errors.backward[k] = errors.backward[k - 1] - reflection * forward;
+        }
+    }
+    return reflection;
 }
 
 /// Corrected Akaike criterion of an autoregression with variance v of the innovations.
@@ -90,12 +138,22 @@ Eigen::Index samples_of(const std::vector<gapped_series>& segments) {
 }
 
 Eigen::VectorXd autocovariance(const std::vector<gapped_series>& segments, Eigen::Index lags) {
-    Eigen::VectorXd sum = Eigen::VectorXd::Zero(lags + 1);
+    const auto samples = static_cast<double>(samples_of(segments));
+    Eigen::VectorXd gamma = Eigen::VectorXd::Zero(lags + 1);
+    std::vector<lattice> errors;
     for (const gapped_series& segment : segments) {
-        sum += lagged_products(segment.value, lags);
+        gamma[0] += segment.value.squaredNorm() / samples;
+        errors.push_back(start_lattice(segment));
     }
-    const Eigen::Index samples = samples_of(segments);
-    return samples > 0 ? Eigen::VectorXd(sum / static_cast<double>(samples)) : sum;
+    Eigen::VectorXd a(0);
+    double v = gamma[0];
+    for (Eigen::Index p = 1; p <= lags; ++p) {
+        const double reflection = reflect(errors, p, shortest_share * samples);
+        gamma[p] = a.dot(gamma.segment(1, p - 1).reverse()) + reflection * v;
+        a = raised(a, reflection);
+        v *= 1.0 - reflection * reflection;
+    }
+    return samples > 0.0 ? gamma : Eigen::VectorXd::Zero(lags + 1);
 }
 
 Eigen::VectorXd lagged_pairs(const std::vector<gapped_series>& segments, Eigen::Index lags) {
@@ -127,14 +185,16 @@ autoregression fit_autoregression(const Eigen::VectorXd& autocovariance, Eigen::
     double v = 1.0;
     Eigen::VectorXd a(0);
     for (Eigen::Index p = 1; p < r.size() && p + 2 < samples; ++p) {
-        const double reflection = (r[p] - a.dot(r.segment(1, p - 1).reverse())) / v;
+        double reflection = (r[p] - a.dot(r.segment(1, p - 1).reverse())) / v;
+        if (p == 1) {
+            const double highest = 1.0 - 1.0 / static_cast<double>(samples);
+            reflection = std::clamp(reflection, -highest, highest);
+        }
         v *= 1.0 - reflection * reflection;
         if (!(v > 1e-12)) {
             break;
         }
-        Eigen::VectorXd next(p);
-        next << a - reflection * a.reverse(), reflection;
-        a = next;
+        a = raised(a, reflection);
         const double criterion = akaike(v, p, samples);
         if (criterion < best_criterion) {
             best_criterion = criterion;

@@ -161,8 +161,9 @@ void check_request(const filter_request& request, double rate) {
         throw input_error({"", 0, "decimation"}, fmt::format("{} is not a positive number", *request.decimation));
     }
     if (request.minimum_speed && !(*request.minimum_speed >= 0.0 && *request.minimum_speed < 1.0)) {
-        throw input_error({"", 0, "minimum_speed"},
-                          fmt::format("{:.6g} is not a part of the top speed from 0 to below 1", *request.minimum_speed));
+        throw input_error(
+            {"", 0, "minimum_speed"},
+            fmt::format("{:.6g} is not a part of the top speed from 0 to below 1", *request.minimum_speed));
     }
 }
 

@@ -12,8 +12,8 @@ namespace {
 
 constexpr int bias_corrections = 2;
 
-// All of this works on the uniform grid of the samples of every block, with zeros where rows were left out: the noise goes
-// on through a gap, what stands on its two sides stays as correlated as its distance in time says, and the rows of
+// All of this works on the uniform grid of the samples of every block, with zeros where rows were left out: the noise
+// goes on through a gap, what stands on its two sides stays as correlated as its distance in time says, and the rows of
 // different joints at one instant stand side by side.
 
 /// Orthonormal basis of the weighted W, W R^-1, [joint][block] of samples x b.
@@ -78,11 +78,6 @@ model_sums sums_of(const std::vector<Eigen::MatrixXd>& Q, const std::vector<gapp
     return sums;
 }
 
-/// Quotients, 0 where there are no pairs: a lag at which no two rows were left tells nothing.
-Eigen::VectorXd per_pair(const Eigen::VectorXd& sum, const Eigen::VectorXd& pairs) {
-    return (pairs.array() > 0.0).select(sum.cwiseQuotient(pairs.cwiseMax(1.0)), 0.0);
-}
-
 /// Models of the noise from the residual's autocovariance, corrected for what the fit has taken away. With
 /// e = (P - QQ') rho and S = sum_j Q_j' Gamma_j Q_j, the products of joint j at lag l have the expectation
 ///     pairs(l) gamma_j(l) - 2 tr(Q_j' D_l P_j Gamma_j Q_j) + tr(D_l Q_j S Q_j').
@@ -105,12 +100,13 @@ std::vector<autoregression> noise_models(const joint_basis& Q, const grid_series
         }
         const Eigen::MatrixXd root = root_of(S);
         for (std::size_t j = 0; j < joints; ++j) {
-            const Eigen::Index samples = samples_of(residual[j]);
-            Eigen::VectorXd sum = static_cast<double>(samples) * raw[j] + 2.0 * shifted[j];
+            Eigen::VectorXd taken = 2.0 * shifted[j];
             for (const Eigen::MatrixXd& block : Q[j]) {
-                sum -= lagged_products(block * root, raw[j].size() - 1);
+                taken -= lagged_products(block * root, raw[j].size() - 1);
             }
-            models[j] = fit_autoregression(per_pair(sum, lagged_pairs(residual[j], raw[j].size() - 1)), samples);
+            // No pairs at all: nothing was taken either.
+            const Eigen::VectorXd pairs = lagged_pairs(residual[j], raw[j].size() - 1).cwiseMax(1.0);
+            models[j] = fit_autoregression(raw[j] + taken.cwiseQuotient(pairs), samples_of(residual[j]));
         }
     }
     return models;

@@ -16,9 +16,9 @@ struct sandwich {
 /// Covariance of chi robust to an autocorrelated residual,
 ///     C = (W'W)^-1 [sum over joints and lags of gamma_j(l) sum_k x_k x_{k+l}'] (W'W)^-1,
 /// W weighted joint by joint, gamma_j the autocovariance of an autoregression fitted to the residual of joint j over
-/// all blocks, never across a seam and across the gaps of left-out rows at the distance in time; all lags count, with no bandwidth to choose, and the bracket is Z'Z >= 0 by
-/// construction (innovation_responses). Assumes the residual of a joint stationary, the rate of the rows the same in
-/// all blocks.
+/// all blocks, never across a seam and across the gaps of left-out rows at the distance in time; all lags count, with
+/// no bandwidth to choose, and the bracket is Z'Z >= 0 by construction (innovation_responses). Assumes the residual of
+/// a joint stationary, the rate of the rows the same in all blocks.
 ///
 /// The residual of a fit is less correlated than the noise, since the columns soak up what looks like them. Its
 /// expected autocovariance follows exactly from Gamma - H Gamma - Gamma H + H Gamma H, H the hat matrix; the difference

@@ -71,8 +71,8 @@ std::vector<double> deviations_of(const observation& rows, const joint_series& r
 
 void check_places(const observation_block& block, std::size_t joints) {
     if (block.kept.size() != joints) {
-        throw std::invalid_argument(fmt::format("observation of {} joints has a block that keeps rows of {}", joints,
-                                                block.kept.size()));
+        throw std::invalid_argument(
+            fmt::format("observation of {} joints has a block that keeps rows of {}", joints, block.kept.size()));
     }
     for (std::size_t j = 0; j < joints; ++j) {
         const std::vector<Eigen::Index>& places = block.kept[j];

@@ -1,5 +1,5 @@
-// The regressor printed in A. Janot, P.-O. Vandanjon, M. Gautier, "Refined Instrumental Variable method for non-linear dynamic
-// identification of robots", 2010, equations 52 and 53.
+// The regressor printed in A. Janot, P.-O. Vandanjon, M. Gautier, "Refined Instrumental Variable method for non-linear
+// dynamic identification of robots", 2010, equations 52 and 53.
 #include <gtest/gtest.h>
 
 #include <cmath>

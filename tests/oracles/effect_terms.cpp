@@ -7,7 +7,9 @@ namespace idim::test {
 
 namespace {
 
-double sign(double x) { return static_cast<double>(x > 0.0) - static_cast<double>(x < 0.0); }
+double sign(double x) {
+    return static_cast<double>(x > 0.0) - static_cast<double>(x < 0.0);
+}
 
 double at_one_joint(const std::string& kind, const joint_state& state, Eigen::Index j) {
     if (kind == "Ia") {

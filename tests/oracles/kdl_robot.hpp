@@ -10,7 +10,8 @@
 
 namespace idim::test {
 
-/// The rigid links of a robot in Orocos KDL: another implementation of another formulation (spatial vectors, 6x6 inertias).
+/// The rigid links of a robot in Orocos KDL: another implementation of another formulation (spatial vectors, 6x6
+/// inertias).
 class kdl_robot {
   public:
     kdl_robot(const mdh_table& table, const std::vector<rigid_link>& links);

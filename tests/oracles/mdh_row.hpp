@@ -22,8 +22,8 @@ struct mdh_table {
     std::vector<mdh_row> rows;
 };
 
-/// The numbers of a serial chain without fixed joints, from the texts of a description alone. Throws std::runtime_error for
-/// other structures.
+/// The numbers of a serial chain without fixed joints, from the texts of a description alone. Throws std::runtime_error
+/// for other structures.
 mdh_table mdh_table_of(const generator::robot_description& robot);
 
 }  // namespace idim::test

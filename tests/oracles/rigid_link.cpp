@@ -36,8 +36,8 @@ value_table standard_parameters_of(const std::vector<rigid_link>& links) {
         const rigid_link& link = links[j];
         const std::string number = std::to_string(j + 1);
         const Eigen::Vector3d& c = link.centre;
-        const Eigen::Matrix3d I = link.central_inertia +
-                                  link.mass * (c.squaredNorm() * Eigen::Matrix3d::Identity() - c * c.transpose());
+        const Eigen::Matrix3d I =
+            link.central_inertia + link.mass * (c.squaredNorm() * Eigen::Matrix3d::Identity() - c * c.transpose());
         values["XX" + number] = I(0, 0);
         values["XY" + number] = I(0, 1);
         values["XZ" + number] = I(0, 2);

@@ -121,6 +121,8 @@ class reader {
 
 }  // namespace
 
-double text_value(const std::string& text, const value_table& names) { return reader(text, names).run(); }
+double text_value(const std::string& text, const value_table& names) {
+    return reader(text, names).run();
+}
 
 }  // namespace idim::test

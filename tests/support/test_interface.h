@@ -1,5 +1,5 @@
-/* What a model compiled for the tests offers beside the interface of the identifiers. Part of the compiled model and of the
- * tests alike. */
+/* What a model compiled for the tests offers beside the interface of the identifiers. Part of the compiled model and of
+ * the tests alike. */
 #ifndef IDIM_TEST_INTERFACE_H
 #define IDIM_TEST_INTERFACE_H
 

@@ -1,5 +1,7 @@
 #include "support/test_model.hpp"
 
+#include <cmath>
+
 #include "support/robot_files.hpp"
 #include "support/test_interface.h"
 
@@ -49,7 +51,8 @@ std::vector<model_source> sources_of(const generator::generated_model& generated
                                                           file.text.find("Scalar* temp,") != std::string::npos));
     }
     const std::string source = replaced(interface_source, "FLOAT_FUNCTION", needs_signals ? "" : float_function);
-    sources.push_back({"test_interface.cpp", replaced(source, "FLOAT_POINTER", needs_signals ? "nullptr" : "in_float")});
+    sources.push_back(
+        {"test_interface.cpp", replaced(source, "FLOAT_POINTER", needs_signals ? "nullptr" : "in_float")});
     sources.push_back({"test_interface.h", read_text(source_folder + "/tests/support/test_interface.h")});
     sources.push_back({"idim/model_interface.h", read_text(source_folder + "/runtime/include/idim/model_interface.h")});
     return sources;
@@ -126,8 +129,9 @@ Eigen::VectorXd test_model::gravity(const Eigen::VectorXd& q, const Eigen::Vecto
     return G;
 }
 
-Eigen::VectorXd test_model::forward_dynamics(const joint_state& s, const Eigen::VectorXd& tau, const Eigen::VectorXd& chi,
-                                             int& pivot, double t, const Eigen::VectorXd& temp) const {
+Eigen::VectorXd test_model::forward_dynamics(const joint_state& s, const Eigen::VectorXd& tau,
+                                             const Eigen::VectorXd& chi, int& pivot, double t,
+                                             const Eigen::VectorXd& temp) const {
     Eigen::VectorXd qdd = Eigen::VectorXd::Constant(dof(), std::nan(""));
     pivot = interface().forward_dynamics(s.q.data(), s.qd.data(), tau.data(), t, temp.data(), chi.data(), qdd.data());
     return qdd;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -48,8 +50,12 @@ class test_model {
 };
 
 /// Largest difference of two arrays relative to the largest element of `expected`, which counts as 1e-3 at least.
+/// Infinite where an element is not a number.
 template <class A, class B>
 double deviation(const A& actual, const B& expected) {
+    if (!actual.allFinite() || !expected.allFinite()) {
+        return std::numeric_limits<double>::infinity();
+    }
     return (actual - expected).cwiseAbs().maxCoeff() / std::max(1e-3, expected.cwiseAbs().maxCoeff());
 }
 

@@ -5,8 +5,8 @@
 
 namespace idim {
 
-/// Samples of a series on a uniform grid, some of which may be missing: the gaps of left-out rows keep the distance in time of
-/// what stands on their two sides.
+/// Samples of a series on a uniform grid, some of which may be missing: the gaps of left-out rows keep the distance in
+/// time of what stands on their two sides.
 struct gapped_series {
     Eigen::VectorXd value;    ///< 0 where missing
     Eigen::VectorXd present;  ///< 1, or 0 where missing
@@ -39,14 +39,15 @@ struct autoregression {
     double correlation_length(Eigen::Index limit) const;
 };
 
-/// Autocovariance about zero at lags 0..lags, pooled over segments, products never taken across a seam and of present
-/// samples only: sum of e_k e_{k+l} divided by the number of all samples, which keeps the sequence positive
-/// semi-definite. Zeros if there are no samples.
+/// Autocovariance about zero at lags 0..lags, pooled over segments: that of Burg's reflection coefficients, taken over
+/// all runs of samples without a seam or a gap [de Waele and Broersen 2000, "The Burg algorithm for segments", IEEE
+/// Trans. Signal Processing 48]. Positive semi-definite by construction, and not drawn to zero by gaps and seams:
+/// dividing sums of products by their pairs would lack the one, dividing by the samples the other. A lag for which less
+/// than a quarter of the samples have so many before them is extrapolated from the shorter ones. Zeros if there are no
+/// samples.
 Eigen::VectorXd autocovariance(const std::vector<gapped_series>& segments, Eigen::Index lags);
 
-/// Pairs (k, k + l) of present samples that the segments hold at lags 0..lags, [lags + 1]. Dividing the products by them
-/// instead takes off the bias of autocovariance that comes with seams and gaps [Parzen 1963, "On spectral analysis with
-/// missing observations and amplitude modulation", Sankhya A 25].
+/// Pairs (k, k + l) of present samples that the segments hold at lags 0..lags, [lags + 1].
 Eigen::VectorXd lagged_pairs(const std::vector<gapped_series>& segments, Eigen::Index lags);
 
 /// Highest order worth trying, 10 log10 of the number of samples [Schwert 1989; the default of R's ar()], but at most a
@@ -55,7 +56,8 @@ Eigen::Index highest_order(const std::vector<gapped_series>& segments);
 
 /// Yule-Walker fit to the autocovariance at lags 0..highest order of `samples` samples, by Levinson's recursion, order
 /// chosen by the corrected Akaike criterion [Hurvich and Tsai 1989]. An autocovariance that stops being positive
-/// definite ends the recursion there; a series of zeros gives order 0 and no variance.
+/// definite ends the recursion there, but at lag 1, where the correlation is taken as 1 - 1 / samples: what does not
+/// change from one sample to the next is not white. A series of zeros gives order 0 and no variance.
 autoregression fit_autoregression(const Eigen::VectorXd& autocovariance, Eigen::Index samples);
 
 /// Innovations eps_k of a segment [n - p]; the first p samples have no full past and are left out. Missing samples are

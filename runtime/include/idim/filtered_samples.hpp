@@ -14,7 +14,8 @@ struct filter_request {
     std::optional<double> cutoff;   ///< Butterworth cut-off of the position filter [Hz]
     std::optional<int> order;       ///< its order (applied forward and backward), default 4
     std::optional<int> decimation;  ///< one sample in n_d of the parallel decimation
-    std::optional<double> minimum_speed;  ///< part of a joint's top speed below which its rows are left out, default 0.01
+    std::optional<double>
+        minimum_speed;  ///< part of a joint's top speed below which its rows are left out, default 0.01
 };
 
 /// A joint whose position stays within this part of the largest range of any joint of a log is held in that log.
@@ -25,8 +26,10 @@ struct filter_choice {
     double cutoff = 0.0;  ///< [Hz]
     int order = 4;
     int decimation = 1;
-    std::string reason;  ///< one sentence for the report: what was given, what was chosen from the data and by which figure
-    double minimum_speed = 0.0;  ///< part of a joint's top speed in a log, see select_rows (observation.hpp); 0 keeps all rows
+    std::string
+        reason;  ///< one sentence for the report: what was given, what was chosen from the data and by which figure
+    double minimum_speed =
+        0.0;  ///< part of a joint's top speed in a log, see select_rows (observation.hpp); 0 keeps all rows
 
     /// Upper edge of the band that the decimated rows keep [Hz], 0.8 f_m / (2 n_d) (METHODS.md, IDIM-LS 3).
     double band(double rate) const;
@@ -35,26 +38,27 @@ struct filter_choice {
 /// Uniform, zero-phase filtered motion of one log at the full rate, edges of the filter removed.
 struct filtered_samples {
     std::string file;
-    double rate = 0.0;     ///< [Hz]
-    Eigen::VectorXd t;     ///< [s]
-    Eigen::MatrixXd q;     ///< samples x dof, low-passed
-    Eigen::MatrixXd qd;    ///< central differences of q
-    Eigen::MatrixXd qdd;   ///< central differences of q
-    Eigen::MatrixXd tau;   ///< as measured, resampled only: the parallel decimation filters it together with the regressor
+    double rate = 0.0;    ///< [Hz]
+    Eigen::VectorXd t;    ///< [s]
+    Eigen::MatrixXd q;    ///< samples x dof, low-passed
+    Eigen::MatrixXd qd;   ///< central differences of q
+    Eigen::MatrixXd qdd;  ///< central differences of q
+    Eigen::MatrixXd
+        tau;  ///< as measured, resampled only: the parallel decimation filters it together with the regressor
     Eigen::MatrixXd temp;  ///< empty if not recorded
 
     Eigen::Index samples() const { return t.size(); }
 };
 
-/// Resamples a log on a uniform grid at its median rate if its time stamps are not uniform (relative to `jitter_tolerance` of a
-/// period); returns it as it is otherwise.
+/// Resamples a log on a uniform grid at its median rate if its time stamps are not uniform (relative to
+/// `jitter_tolerance` of a period); returns it as it is otherwise.
 log resample_uniform(const log& data, double jitter_tolerance = 1e-3);
 
 /// Chooses what `request` leaves open from the spectra of all logs together.
 filter_choice choose_filter(const std::vector<log>& logs, const filter_request& request);
 
-/// Zero-phase low-pass of q, then central differences (METHODS.md, IDIM-LS 1; [IV section 2]). Throws input_error if the log is
-/// shorter than the filter needs, naming both lengths.
+/// Zero-phase low-pass of q, then central differences (METHODS.md, IDIM-LS 1; [IV section 2]). Throws input_error if
+/// the log is shorter than the filter needs, naming both lengths.
 filtered_samples filter_log(const log& data, const filter_choice& choice);
 
 }  // namespace idim

@@ -12,9 +12,10 @@ namespace idim {
 /// The rows that one log contributes, per joint: their places among the decimated samples of the log, ascending.
 using row_selection = std::vector<std::vector<Eigen::Index>>;
 
-/// The over-determined system Y = W chi + rho of [IV 10-14], kept joint by joint and log by log so that nothing is ever filtered,
-/// correlated or split across a seam: rows of joint j stand in blocks[log].joints[j]. Row k of joint j stands at the time
-/// t[kept[j][k]]: rows that were left out are gaps in a uniform series, and what is correlated in time counts them.
+/// The over-determined system Y = W chi + rho of [IV 10-14], kept joint by joint and log by log so that nothing is ever
+/// filtered, correlated or split across a seam: rows of joint j stand in blocks[log].joints[j]. Row k of joint j stands
+/// at the time t[kept[j][k]]: rows that were left out are gaps in a uniform series, and what is correlated in time
+/// counts them.
 struct observation_block {
     std::string file;
     double rate = 0.0;               ///< rate of the samples, after decimation [Hz]
@@ -40,23 +41,27 @@ struct observation {
 /// Every one of `samples` for each of `joints` joints.
 row_selection all_rows(int joints, Eigen::Index samples);
 
-/// The rows that are fit to identify from: those of joint j but where its own decimated speed is below choice.minimum_speed of
-/// its top speed in this log. There the model's sign(qd) is not the robot's: the joint sticks, or reverses at another instant.
-///  - A joint held in this log (held_range) keeps all its rows. It has noise for a speed, any rows left out by that would be
+/// The rows that are fit to identify from: those of joint j but where its own decimated speed is below
+/// choice.minimum_speed of its top speed in this log. There the model's sign(qd) is not the robot's: the joint sticks,
+/// or reverses at another instant.
+///  - A joint held in this log (held_range) keeps all its rows. It has noise for a speed, any rows left out by that
+///  would be
 ///    arbitrary, and it is the only one to tell of gravity at that position.
 ///  - The top speed is that of the log, not of all logs, so that a log of slow motion is not left out as a whole.
 ///  - A moving joint loses the rows of its rests: at rest friction may take any value up to that of breakaway.
-/// Depends on the speeds alone, neither on the model nor on the torque. Throws std::invalid_argument if the log is too short to
-/// decimate.
+/// Depends on the speeds alone, neither on the model nor on the torque. Throws std::invalid_argument if the log is too
+/// short to decimate.
 row_selection select_rows(const filtered_samples& samples, const filter_choice& choice);
 
-/// Evaluates the regressor on the samples of every log, decimates its columns and the torque in parallel (METHODS.md, IDIM-LS 3):
-/// same zero-phase filter, same samples kept; then takes the rows that select_rows names.
-observation observe(const idim_model_interface& model, const std::vector<filtered_samples>& logs, const filter_choice& choice);
+/// Evaluates the regressor on the samples of every log, decimates its columns and the torque in parallel (METHODS.md,
+/// IDIM-LS 3): same zero-phase filter, same samples kept; then takes the rows that select_rows names.
+observation observe(const idim_model_interface& model, const std::vector<filtered_samples>& logs,
+                    const filter_choice& choice);
 
-/// The same with given rows, one selection per log: instruments along a simulated trajectory take those of the measured one
+/// The same with given rows, one selection per log: instruments along a simulated trajectory take those of the measured
+/// one
 /// (`kept` of its blocks). Throws std::invalid_argument if they do not fit the logs.
-observation observe(const idim_model_interface& model, const std::vector<filtered_samples>& logs, const filter_choice& choice,
-                    const std::vector<row_selection>& kept);
+observation observe(const idim_model_interface& model, const std::vector<filtered_samples>& logs,
+                    const filter_choice& choice, const std::vector<row_selection>& kept);
 
 }  // namespace idim

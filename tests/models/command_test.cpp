@@ -1,0 +1,127 @@
+// What the command says of descriptions that cannot be right: one line that names file, line and field, exit status 2,
+// and nothing written.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <ostream>
+
+#include "support/command.hpp"
+#include "support/robot_files.hpp"
+
+namespace idim::test {
+
+namespace {
+
+struct bad_robot {
+    const char* name;     ///< of the test
+    const char* text;     ///< of the description
+    const char* message;  ///< behind the file name
+};
+
+std::ostream& operator<<(std::ostream& stream, const bad_robot& robot) {
+    return stream << robot.name;
+}
+
+class BadRobot : public testing::TestWithParam<bad_robot> {};
+
+const bad_robot bad_robots[] = {
+    {"UnknownJointType", "name: a\njoints:\n  - {name: j1, type: spherical, theta: q}\n",
+     ":3: joints[1].type: expected revolute, prismatic or fixed"},
+    {"CyclicAntecedents",
+     "name: a\njoints:\n  - {name: j1, theta: q, antecedent: j2}\n  - {name: j2, theta: q, antecedent: j1}\n",
+     ":3: joints[1].antecedent: antecedents form a cycle"},
+    {"OwnAntecedent", "name: a\njoints:\n  - {name: j1, theta: q, antecedent: j1}\n", ":3: joints[1].antecedent: "},
+    {"UnknownAntecedent", "name: a\njoints:\n  - {name: j1, theta: q, antecedent: j7}\n", ":3: joints[1].antecedent: "},
+    {"UnknownSymbol", "name: a\nconstants: {L: 1}\njoints:\n  - {name: j1, theta: q, d: LL}\n",
+     ":4: joints[1].d: expression \"LL\": unknown symbol \"LL\", expected one of: L, pi"},
+    {"MalformedExpression", "name: a\njoints:\n  - {name: j1, theta: q +* 2}\n", ":3: joints[1].theta: "},
+    {"UnclosedParenthesis", "name: a\njoints:\n  - {name: j1, theta: \"(q + 1\"}\n", ":3: joints[1].theta: "},
+    {"JointNameThatInjectsCode", "name: a\njoints:\n  - {name: 'j1\"; int main() { return 0; } //', theta: q}\n",
+     ":3: joints[1].name: expected a name of letters, digits and underscores"},
+    {"RobotNameThatLeavesItsFolder", "name: ../../a\njoints:\n  - {name: j1, theta: q}\n", ":1: name: expected a name"},
+    {"RobotNameThatIsAKeyword", "name: namespace\njoints:\n  - {name: j1, theta: q}\n", ":1: name: "},
+    {"ConstantNameThatInjectsCode", "name: a\nconstants: {\"L); system(\": 1}\njoints:\n  - {name: j1, theta: q}\n",
+     ":2: constants."},
+    {"ExpressionThatInjectsCode", "name: a\njoints:\n  - {name: j1, theta: q, d: \"1; system(0)\"}\n",
+     ":3: joints[1].d: "},
+    {"ThetaWithoutQ", "name: a\njoints:\n  - {name: j1, theta: 0.3}\n",
+     ":3: joints[1].theta: \"0.3\" given, expected a constant times q plus a constant"},
+    {"ThetaNotLinearInQ", "name: a\njoints:\n  - {name: j1, theta: q^2}\n", ":3: joints[1].theta: "},
+    {"DivisionByZero", "name: a\njoints:\n  - {name: j1, theta: q, d: 1/0}\n", ":3: joints[1].d: "},
+    {"HugePower", "name: a\njoints:\n  - {name: j1, theta: q, d: 2^(9^9)}\n", ":3: joints[1].d: "},
+    {"NothingMoves", "name: a\njoints:\n  - {name: j1, type: fixed}\n", ":3: joints: "},
+    {"UnknownEffect", "name: a\njoints:\n  - {name: j1, theta: q}\neffects: [no_such_effect]\n",
+     ":4: effects[1]: no effect \"no_such_effect\""},
+    {"UnknownKey", "name: a\njoint:\n  - {name: j1, theta: q}\n", ":2: joint: "},
+    {"NoYaml", "name: [a\n", ":"},
+};
+
+void expect_one_line(const std::string& text) {
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
+    EXPECT_EQ(text.rfind("idim: ", 0), 0u) << text;
+}
+
+}  // namespace
+
+TEST_P(BadRobot, IsRefusedInOneLineAndNothingIsWritten) {
+    const temporary_folder folder;
+    const std::string file = folder.write("robot.yaml", GetParam().text);
+    const std::filesystem::path out = folder.path() / "model";
+    const command_result result = run_idim({"generate", file, "-o", out.string()});
+    EXPECT_EQ(result.status, 2);
+    EXPECT_EQ(result.out, "");
+    expect_one_line(result.err);
+    EXPECT_EQ(result.err.rfind("idim: " + file + GetParam().message, 0), 0u) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST_P(BadRobot, LeavesAModelThatStandsThereAsItIs) {
+    const temporary_folder folder;
+    const std::string file = folder.write("robot.yaml", GetParam().text);
+    const std::string kept = folder.write("model/regressor.hpp", "kept\n");
+    EXPECT_EQ(run_idim({"generate", file, "-o", (folder.path() / "model").string()}).status, 2);
+    EXPECT_EQ(read_text(kept), "kept\n");
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path() / "model"), {}), 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Command, BadRobot, testing::ValuesIn(bad_robots),
+                         [](const testing::TestParamInfo<bad_robot>& robot) { return std::string(robot.param.name); });
+
+TEST(Command, MissingFileIsBadInput) {
+    const command_result result = run_idim({"base", "/no/such/robot.yaml"});
+    EXPECT_EQ(result.status, 2);
+    expect_one_line(result.err);
+    EXPECT_NE(result.err.find("/no/such/robot.yaml"), std::string::npos);
+}
+
+TEST(Command, BadUsageIsBadInput) {
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{}, {"no_such_command"}, {"generate", robot_file("emps")}, {"base"}}) {
+        const command_result result = run_idim(arguments);
+        EXPECT_EQ(result.status, 2);
+        expect_one_line(result.err);
+    }
+}
+
+TEST(Command, FolderThatCannotBeMadeIsBadInput) {
+    const temporary_folder folder;
+    const std::string file = folder.write("file", "");
+    const command_result result = run_idim({"generate", robot_file("emps"), "-o", file + "/model"});
+    EXPECT_EQ(result.status, 2);
+    expect_one_line(result.err);
+}
+
+TEST(Command, RankThatCannotBeProvenFailsWithBothFigures) {
+    const temporary_folder folder;
+    const std::string file = folder.write("near.yaml",
+                                          "name: near\ngravity: [0, 0, 0]\njoints:\n  - {name: j1, theta: q}\n  - "
+                                          "{name: j2, alpha: 1e-9, d: 0.5, theta: q}\n");
+    const command_result result = run_idim({"generate", file, "-o", (folder.path() / "model").string()});
+    EXPECT_EQ(result.status, 1);
+    expect_one_line(result.err);
+    EXPECT_NE(result.err.find("rank 4 by QR"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("8 in exact arithmetic"), std::string::npos) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "model"));
+}
+
+}  // namespace idim::test
