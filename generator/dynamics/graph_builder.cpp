@@ -75,6 +75,9 @@ class graph_builder {
         if (GiNaC::is_a<GiNaC::numeric>(e)) {
             return "~" + to_fraction(to_rational(e));
         }
+        if (GiNaC::is_a<GiNaC::constant>(e)) {
+            return "~pi";
+        }
         if (GiNaC::is_a<GiNaC::power>(e)) {
             return key(e.op(0)) + "^" + key(e.op(1));
         }
@@ -104,6 +107,9 @@ class graph_builder {
         }
         if (GiNaC::is_a<GiNaC::numeric>(e)) {
             return graph_.constant(to_rational(e));
+        }
+        if (GiNaC::is_a<GiNaC::constant>(e)) {
+            return graph_.constant(to_rational(constant_value(e, {})));
         }
         if (GiNaC::is_a<GiNaC::power>(e)) {
             return build_power(e.op(0), e.op(1));

@@ -53,7 +53,7 @@ std::vector<std::string> left_over(const std::vector<rendered_file>& files, cons
         const bool still =
             std::any_of(files.begin(), files.end(), [&](const rendered_file& f) { return f.name == name; });
         const bool is_plain = !name.empty() && fs::path(name).filename() == fs::path(name);
-        if (is_plain && !still && fs::exists(folder / name)) {
+        if (is_plain && !still && fs::is_regular_file(folder / name)) {
             result.push_back(name);
         }
     }

@@ -41,6 +41,15 @@ class context_data {
         }
         data_.set(key, entries);
     }
+    /// Lines of a section whose tag is "text"; the tag is known even where there is no line.
+    void set_lines(const std::string& key, const std::vector<std::string>& lines) {
+        std::vector<context_data> list;
+        for (const std::string& line : lines) {
+            list.emplace_back().set("text", line);
+        }
+        keys_.insert("text");
+        set(key, list);
+    }
     /// A partial stands on a line of its own, so its last line break is the template's.
     void set_partial(const std::string& key, std::string text) {
         keys_.insert(key);
@@ -74,14 +83,6 @@ std::string render(const std::string& folder, const std::string& name, const con
     }
     tmpl.set_custom_escape([](const std::string& s) { return s; });
     return tmpl.render(context.values());
-}
-
-std::vector<context_data> texts(const std::vector<std::string>& lines) {
-    std::vector<context_data> result;
-    for (const std::string& line : lines) {
-        result.emplace_back().set("text", line);
-    }
-    return result;
 }
 
 std::vector<context_data> parameters(const std::vector<parameter_context>& list) {
@@ -138,20 +139,20 @@ rendered_file function_file(const template_context& context, const function_cont
     values.set("arguments", meanings);
     const std::string indent = ",\n" + std::string(function.name.size() + 6, ' ');
     values.set("argument_list", fmt::format("{}", fmt::join(declarations, indent)));
-    values.set("statements", texts(function.statements));
+    values.set_lines("statements", function.statements);
     std::vector<std::string> usings;
     for (const std::string& name : function.functions) {
         usings.push_back("std::" + name);
     }
-    values.set("using_functions",
-               usings.empty() ? std::vector<context_data>{} : texts({fmt::format("{}", fmt::join(usings, ", "))}));
+    using lines = std::vector<std::string>;
+    values.set_lines("using_functions", usings.empty() ? lines{} : lines{fmt::format("{}", fmt::join(usings, ", "))});
     return {function.name + ".hpp", render(folder, "function.hpp.mustache", values)};
 }
 
 rendered_file metadata_file(const template_context& context, const std::string& folder) {
     context_data values = common(context, folder);
-    values.set("constants", texts(context.constants));
-    values.set("effects", texts(context.effects));
+    values.set_lines("constants", context.constants);
+    values.set_lines("effects", context.effects);
     values.set("dof", std::to_string(context.joints.size()));
     values.set("n_base", std::to_string(context.base_parameters.size()));
     values.set("n_standard", std::to_string(context.standard_parameters.size()));

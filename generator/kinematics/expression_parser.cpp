@@ -59,9 +59,9 @@ GiNaC::ex decimal_value(const std::string& literal, const expression_text& sourc
             scale -= after_point ? 1 : 0;
         }
     }
-    if (used < literal.size()) {
-        scale += std::stoi(literal.substr(used + 1));
-    }
+    constexpr std::size_t longest_exponent = 4;  // with its sign
+    const std::string exponent = used < literal.size() ? literal.substr(used + 1) : "0";
+    scale += exponent.size() > longest_exponent ? 1000 : std::stoi(exponent);
     if (digits.size() > 60 || std::abs(scale) > 60) {
         fail(source, fmt::format("number {} has too many digits", literal));
     }
@@ -108,6 +108,9 @@ class tokeniser {
             }
             if (depth_ > deepest_nesting) {
                 fail(source_, fmt::format("nested deeper than {} parentheses", deepest_nesting));
+            }
+            if (c == ')' && result_.text[result_.text.find_last_not_of(' ')] == '(') {
+                fail(source_, "nothing between parentheses");  // GiNaC reads past a call without arguments
             }
             result_.text += c;
             ++at_;
@@ -251,11 +254,21 @@ GiNaC::numeric constant_value(const GiNaC::ex& expression, const input_location&
         return GiNaC::ex_to<GiNaC::numeric>(expression);
     }
     GiNaC::Digits = 60;
-    const GiNaC::ex value = expression.evalf();
+    GiNaC::ex value;
+    try {
+        value = expression.evalf();
+    } catch (const std::exception&) {
+        throw input_error(where, "expected a finite number");  // overflow in CLN
+    }
     if (!GiNaC::is_a<GiNaC::numeric>(value) || !GiNaC::ex_to<GiNaC::numeric>(value).is_real()) {
         throw input_error(where, "expected a real number");
     }
     const auto number = GiNaC::ex_to<GiNaC::numeric>(value);
+    const GiNaC::numeric largest = GiNaC::numeric(10).power(60);
+    if (GiNaC::abs(number) > largest || (!number.is_zero() && GiNaC::abs(number) < 1 / largest)) {
+        throw input_error(where,
+                          "expected a number from 1e-60 to 1e60 in size");  // its fraction may not fit into memory
+    }
     return GiNaC::numeric(cln::rational(cln::realpart(number.to_cl_N())));
 }
 

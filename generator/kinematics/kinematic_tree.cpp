@@ -3,6 +3,7 @@
 #include <cln/real.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "graph/rational.hpp"
@@ -41,6 +42,20 @@ std::string printed(const ex& e) {
     return text.str();
 }
 
+/// Made of symbols and fractions by + - * / and integer powers alone.
+bool is_rational(const ex& e) {
+    if (GiNaC::is_a<GiNaC::numeric>(e)) {
+        return GiNaC::ex_to<GiNaC::numeric>(e).is_rational();
+    }
+    if (GiNaC::is_a<GiNaC::power>(e)) {
+        return e.op(1).info(GiNaC::info_flags::integer) && is_rational(e.op(0));
+    }
+    if (GiNaC::is_a<GiNaC::add>(e) || GiNaC::is_a<GiNaC::mul>(e)) {
+        return std::all_of(e.begin(), e.end(), is_rational);
+    }
+    return GiNaC::is_a<GiNaC::symbol>(e);
+}
+
 /// Turns the texts of one description into symbolic entries.
 class tree_reader {
   public:
@@ -51,8 +66,7 @@ class tree_reader {
             read_constant(constant);
         }
         for (std::size_t i = 0; i < 3; ++i) {
-            tree_.gravity[i] = parse_expression(robot_.gravity[i], names_);
-            check_finite(tree_.gravity[i], robot_.gravity[i].where);
+            tree_.gravity[i] = finite(parse_expression(robot_.gravity[i], names_), robot_.gravity[i].where);
         }
         for (const joint_description& joint : robot_.joints) {
             read_joint(joint);
@@ -77,9 +91,15 @@ class tree_reader {
 
     void check_finite(const ex& value, const input_location& where) { constant_value(value.subs(values_), where); }
 
+    /// The value as it stands if exact arithmetic can follow it; otherwise (pi, sqrt(2), L*sin(a)) its number to 60
+    /// digits.
+    ex finite(const ex& value, const input_location& where) {
+        const GiNaC::numeric number = constant_value(value.subs(values_), where);
+        return is_rational(value) ? value : ex(number);
+    }
+
     ex length(const expression_text& text) {
-        ex value = parse_expression(text, names_);
-        check_finite(value, text.where);
+        const ex value = finite(parse_expression(text, names_), text.where);
         return is_number(value) ? literal(value) : value.expand();
     }
 
@@ -168,12 +188,11 @@ class tree_reader {
         }
         const ex offset = value.subs(q == 0).expand();
         check_finite(offset, text.where);
-        check_finite(rate, text.where);
         tree_.driven.push_back(static_cast<int>(tree_.joints.size()));
         tree_.q.push_back(q);
         tree_.qd.emplace_back(fmt::format("qd{}", number));
         tree_.qdd.emplace_back(fmt::format("qdd{}", number));
-        return {rate, offset};
+        return {finite(rate, text.where), offset};
     }
 
     void read_revolute(kinematic_joint& joint, const expression_text& text) {
@@ -181,12 +200,13 @@ class tree_reader {
         joint.coordinate = static_cast<int>(tree_.driven.size()) - 1;
         joint.rate = rate;
         const int quarters = quarter_turns(offset.subs(values_));
-        joint.angle = rate * tree_.q.back() + (quarters >= 0 ? ex(0) : offset);
+        joint.angle = rate * tree_.q.back() + (quarters >= 0 ? ex(0) : finite(offset, text.where));
         joint.theta = turned({GiNaC::cos(joint.angle), GiNaC::sin(joint.angle)}, quarters);
     }
 
     void read_prismatic(kinematic_joint& joint, const expression_text& text) {
-        const auto [rate, offset] = linear_in_q(text);
+        const auto [rate, exact_offset] = linear_in_q(text);
+        const ex offset = finite(exact_offset, text.where);
         joint.coordinate = static_cast<int>(tree_.driven.size()) - 1;
         joint.rate = rate;
         joint.r = rate * tree_.q.back() + (is_number(offset) ? literal(offset) : offset);

@@ -23,7 +23,7 @@ say "Two motions simulated in closed loop with noise, at the published parameter
 for run in 1 2; do
     awk -v phase=$run -v seconds=120 -f "$source/runtime/demo/scara_reference.awk" > "$work/reference_$run.csv"
     "$idim" simulate "$robot" --parameters "$truth" --reference "$work/reference_$run.csv" -o "$work/log_$run.csv" \
-        --position-noise 1e-4 --torque-noise 0.05 0.01 --seed $run
+        --position-noise 1e-4 --torque-noise 0.4 0.08 --seed $run
 done
 
 say "Identified from the first, beside the truth"

@@ -14,8 +14,8 @@
 // In the acceleration spectrum the motion falls with the frequency while the noise of the position, white or nearly so,
 // rises with f^4: between them lies a valley, above which the data say nothing of the motion. The rows keep the band
 // that holds 99.9 % of the acceleration and torque energy found below the valley; the position filter is set so far
-// above that band that it takes 0.05 % at its edge, so the regressor is not distorted where the rows look. Set against
-// published choices: EMPS order 4, 100 Hz, decimation 10 (here 99 Hz, 10); other robots in tests/runtime.
+// above that band that it takes 0.001 % at its edge, so the regressor is not distorted where the rows look. Set against
+// published choices: EMPS order 4, 100 Hz, decimation 10 (here 161 Hz, 10); other robots in tests/runtime.
 
 namespace idim {
 namespace {
@@ -25,7 +25,7 @@ constexpr int default_order = 4;
 // above the noise of a filtered encoder, and a few rows per reversal only.
 constexpr double default_minimum_speed = 0.01;
 constexpr double energy_share = 0.999;
-constexpr double droop = 5e-4;  // loss of |H|^2 at the band edge
+constexpr double droop = 1e-5;  // loss of |H|^2 at the band edge
 constexpr double visible_rise =
     4.0;  // of the acceleration spectrum above its valley, for a noise floor to count as seen
 constexpr double largest_cutoff = 0.4;     // of the rate: 0.8 of the Nyquist frequency
@@ -190,7 +190,7 @@ cutoff_choice choose_cutoff(const std::vector<joint_spectra>& spectra, double ra
         choice.cutoff = rounded(choice.band * ratio);
         choice.reason = fmt::format(
             "cut-off {:.4g} Hz chosen: the acceleration sinks into its noise at {:.3g} Hz, 99.9 % of the "
-            "acceleration and torque below that lie below {:.3g} Hz, and the filter takes 0.05 % there",
+            "acceleration and torque below that lie below {:.3g} Hz, and the filter takes 0.001 % there",
             choice.cutoff, valley, choice.band);
         return choice;
     }

@@ -15,6 +15,8 @@
 namespace idim {
 namespace {
 
+constexpr double rest_share = 0.2;
+
 using row_major_matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 void check_log(const idim_model_interface& model, const filtered_samples& samples, const filter_choice& choice) {
@@ -122,13 +124,27 @@ observation_block observe_log(const idim_model_interface& model, const filtered_
     return block;
 }
 
-/// Places where |speed| is at least `part` of its maximum.
+/// Places of all samples but those of rests: runs of samples slower than `part` of the top speed that last longer than
+/// `rest_share` of the time in which the top acceleration reaches the top speed. A reversal at that acceleration passes
+/// through the slow range in 2 `part` of this time.
 std::vector<Eigen::Index> moving_rows(const Eigen::Ref<const Eigen::VectorXd>& speed, double part) {
-    const double slowest = part * speed.cwiseAbs().maxCoeff();
+    const Eigen::Index n = speed.size();
+    const double top_speed = speed.cwiseAbs().maxCoeff();
+    const double top_change = n > 1 ? (speed.tail(n - 1) - speed.head(n - 1)).cwiseAbs().maxCoeff() : 0.0;
+    const double longest = top_change > 0.0 ? rest_share * top_speed / top_change : 0.0;  // in samples
     std::vector<Eigen::Index> places;
-    for (Eigen::Index k = 0; k < speed.size(); ++k) {
-        if (std::abs(speed[k]) >= slowest) {
+    for (Eigen::Index k = 0; k < n;) {
+        Eigen::Index end = k;
+        while (end < n && std::abs(speed[end]) < part * top_speed) {
+            ++end;
+        }
+        const bool rests = static_cast<double>(end - k) > longest;
+        for (; !rests && k < end; ++k) {
             places.push_back(k);
+        }
+        k = end;
+        if (k < n) {
+            places.push_back(k++);
         }
     }
     return places;

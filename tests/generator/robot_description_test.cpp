@@ -82,7 +82,8 @@ TEST(RobotDescription, ScaraIsListedAsWritten) {
               "  - {name: j1, type: revolute, antecedent: base, gamma: 0, b: 0, alpha: 0, d: 0, theta: q, r: 0}\n"
               "  - {name: j2, type: revolute, antecedent: j1, gamma: 0, b: 0, alpha: 0, d: L, theta: q, r: 0}\n"
               "effects:\n"
-              "  - {effect: rotor_inertia, joints: [j1, j2]}\n"
+              "  - {effect: rotor_inertia, joints: [j1]}\n"
+              "  - {effect: direct_drive_rotor, joints: [j2], from: [j1]}\n"
               "  - {effect: viscous_friction, joints: [j1, j2]}\n"
               "  - {effect: coulomb_friction, joints: [j1, j2]}\n"
               "control: {law: pd_cascade, rate: 200, delay: 0, wn: [1, 10], zeta: [1, 1]}\n");

@@ -52,7 +52,8 @@ const bad_robot bad_robots[] = {
     {"NothingMoves", "name: a\njoints:\n  - {name: j1, type: fixed}\n", ":3: joints: "},
     {"UnknownEffect", "name: a\njoints:\n  - {name: j1, theta: q}\neffects: [no_such_effect]\n",
      ":4: effects[1]: no effect \"no_such_effect\""},
-    {"UnknownKey", "name: a\njoint:\n  - {name: j1, theta: q}\n", ":2: joint: "},
+    {"UnknownKey", "name: a\ngravitation: 9.81\njoints:\n  - {name: j1, theta: q}\n",
+     ":2: unknown key \"gravitation\""},
     {"NoYaml", "name: [a\n", ":"},
 };
 

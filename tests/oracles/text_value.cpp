@@ -100,9 +100,9 @@ class reader {
         while (at_ < text_.size() && (std::isalnum(static_cast<unsigned char>(text_[at_])) != 0 || text_[at_] == '_')) {
             name += text_[at_++];
         }
-        if (name == "sin" || name == "cos") {
-            const double angle = atom();
-            return name == "sin" ? std::sin(angle) : std::cos(angle);
+        if (name == "sin" || name == "cos" || name == "sqrt") {
+            const double x = atom();
+            return name == "sin" ? std::sin(x) : name == "cos" ? std::cos(x) : std::sqrt(x);
         }
         const auto known = names_.find(name);
         if (known != names_.end()) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <random>
@@ -37,19 +38,40 @@ noise_maker decimated() {
     return per_joint(test::decimated_noise);
 }
 
+/// Leaves rows out, after the noise has been added to all of them.
+using row_cutter = std::function<void(observation_block&)>;
+
+/// One row in ten at random, and those within `reversal` of a reversal of their own joint [s].
+row_cutter gaps(double reversal) {
+    return [reversal](observation_block& block) {
+        std::mt19937_64 random(7);
+        std::bernoulli_distribution tenth(0.1);
+        for (int joint = 0; joint < 2; ++joint) {
+            const auto direction = [&](double t) { return std::signbit(test::multi_sine(t, joint).qd); };
+            test::leave_out(block, joint, [&](Eigen::Index k) {
+                const double t = block.t[k];
+                return tenth(random) || direction(t - reversal) != direction(t + reversal);
+            });
+        }
+    };
+}
+
 /// Percent of the runs whose interval holds the truth, per parameter.
 struct coverage {
     Eigen::ArrayXd robust = Eigen::ArrayXd::Zero(8);
     Eigen::ArrayXd white = Eigen::ArrayXd::Zero(8);
 };
 
-coverage cover(const observation& clean, const noise_maker& add_noise, least_squares_method method, int runs = 200) {
+coverage cover(
+    const observation& clean, const noise_maker& add_noise, least_squares_method method, int runs = 200,
+    const row_cutter& cut = [](observation_block&) {}) {
     std::mt19937_64 random(20240607);
     coverage result;
     for (int run = 0; run < runs; ++run) {
         observation rows = clean;
         for (observation_block& block : rows.blocks) {
             add_noise(block, random);
+            cut(block);
         }
         const estimate fit = least_squares(rows, method);
         const Eigen::ArrayXd error = (fit.chi - test::scara_truth()).array().abs();
@@ -125,6 +147,36 @@ TEST(Coverage, HoldsOnALogTooShortToForgiveTheBiasOfResiduals) {
     EXPECT_GT(result.robust.mean(), 92.8);
 }
 
+TEST(Coverage, HoldsWhenRowsAreLeftOutAtRandomAndAroundReversals) {
+    // Reversals of 0.1 s: two rows in 20 Hz each, about every 0.8 s.
+    observation cut = test::scara_rows();
+    for (observation_block& block : cut.blocks) {
+        gaps(0.05)(block);
+    }
+    EXPECT_GT(cut.share_left_out(), 0.15);
+    EXPECT_LT(cut.share_left_out(), 0.30);
+    expect_nominal(cover(test::scara_rows(), white(), least_squares_method::wls, 400, gaps(0.05)).robust);
+    for (const double phi : {0.5, 0.8, 0.95}) {
+        expect_nominal(
+            cover(test::scara_rows(), autoregressive(phi), least_squares_method::wls, 400, gaps(0.05)).robust);
+    }
+    expect_nominal(cover(test::scara_rows(), decimated(), least_squares_method::wls, 400, gaps(0.05)).robust);
+    expect_nominal(cover(test::scara_rows(), autoregressive(0.8), least_squares_method::irls, 400, gaps(0.05)).robust);
+}
+
+TEST(Coverage, HoldsWhenLongStretchesAreLeftOut) {
+    // Rests of 3 s in 10 s, and the reversals.
+    const row_cutter rests = [](observation_block& block) {
+        for (int joint = 0; joint < 2; ++joint) {
+            test::leave_out(block, joint, [&](Eigen::Index k) {
+                return std::fmod(block.t[k] + 2.0 * joint, 10.0) < 3.0 ||
+                       std::abs(test::multi_sine(block.t[k], joint).qd) < 0.1;
+            });
+        }
+    };
+    expect_nominal(cover(test::scara_rows(), autoregressive(0.8), least_squares_method::wls, 400, rests).robust);
+}
+
 TEST(Coverage, HoldsWhenTheJointsFeelTheSameDisturbance) {
     // The motor of axis 2 also carries the torque of axis 1, so that six parameters are seen twice with the same noise:
     // taking the joints for independent would make their deviations too small by up to 1.4, their intervals hold in 84
@@ -141,6 +193,7 @@ TEST(Coverage, HoldsWhenTheJointsFeelTheSameDisturbance) {
         }
     };
     expect_nominal(cover(rows, common, least_squares_method::wls).robust);
+    expect_nominal(cover(rows, common, least_squares_method::wls, 400, gaps(0.05)).robust);
 }
 
 }  // namespace

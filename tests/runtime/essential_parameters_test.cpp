@@ -136,7 +136,12 @@ TEST(EssentialParameters, PValueIsThatOfTheFDistributionOnEffectiveSamples) {
     observation rows;
     rows.dof = 1;
     rows.n_base = 1;
-    rows.blocks = {{"", 1.0, {}, {Eigen::VectorXd::Ones(122)}, {Eigen::VectorXd::Ones(122)}}};
+    rows.blocks = {{"",
+                    1.0,
+                    Eigen::VectorXd::Zero(122),
+                    all_rows(1, 122),
+                    {Eigen::VectorXd::Ones(122)},
+                    {Eigen::VectorXd::Ones(122)}}};
     estimate full;
     full.chi = Eigen::VectorXd::Ones(1);
     full.covariance = Eigen::MatrixXd::Constant(1, 1, 0.25);
@@ -205,7 +210,12 @@ TEST(EssentialParameters, KeepsWhatIsKnownWithoutAnyDeviation) {
     observation rows;
     rows.dof = 1;
     rows.n_base = 2;
-    rows.blocks = {{"", 1.0, {}, {Eigen::MatrixXd{{1.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {0.0, 1.0}}}, {{}}}};
+    rows.blocks = {{"",
+                    1.0,
+                    Eigen::VectorXd::Zero(4),
+                    all_rows(1, 4),
+                    {Eigen::MatrixXd{{1.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {0.0, 1.0}}},
+                    {{}}}};
     rows.blocks[0].Y[0] = Eigen::Vector4d(2.0, 2.0, 0.0, 0.0);
     estimate full = least_squares(rows, least_squares_method::ols);
     full.chi = Eigen::Vector2d(2.0, 0.0);

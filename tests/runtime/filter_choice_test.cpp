@@ -119,16 +119,28 @@ TEST(FilterChoice, WithoutNoiseFloorItSaysSoAndStaysADecadeAboveTheMotion) {
 
 TEST(FilterChoice, WhatIsGivenIsKeptAndNamed) {
     const std::vector<log> logs = {sinusoids(1e-4)};
-    const filter_choice all = choose_filter(logs, {20.0, 2, 20});
+    const filter_choice all = choose_filter(logs, {20.0, 2, 20, 0.025});
     EXPECT_EQ(all.cutoff, 20.0);
     EXPECT_EQ(all.order, 2);
     EXPECT_EQ(all.decimation, 20);
-    EXPECT_EQ(all.reason,
-              "Butterworth order 2 given; cut-off 20 Hz given; decimation 20 given: the rows keep 0 to 4 Hz");
+    EXPECT_EQ(
+        all.reason,
+        "Butterworth order 2 given; cut-off 20 Hz given; decimation 20 given: the rows keep 0 to 4 Hz; rows slower "
+        "than 2.5 % of a joint's top speed left out");
+    EXPECT_EQ(all.minimum_speed, 0.025);
 
     const filter_choice decimation = choose_filter(logs, {{}, {}, 7});
     EXPECT_EQ(decimation.decimation, 7);
     EXPECT_EQ(decimation.cutoff, choose_filter(logs, {}).cutoff);
+}
+
+TEST(FilterChoice, SlowestHundredthIsLeftOutUnlessTheUserSaysOtherwise) {
+    const filter_choice usual = choose_filter({sinusoids(1e-4)}, {});
+    EXPECT_EQ(usual.minimum_speed, 0.01);
+    EXPECT_NE(usual.reason.find("rows slower than 1 % of a joint's top speed left out"), std::string::npos);
+    const filter_choice all = choose_filter({sinusoids(1e-4)}, {{}, {}, {}, 0.0});
+    EXPECT_EQ(all.minimum_speed, 0.0);
+    EXPECT_NE(all.reason.find("rows kept at any speed"), std::string::npos);
 }
 
 TEST(FilterChoice, DecimationFollowsFromAGivenCutoff) {
@@ -157,6 +169,8 @@ TEST(FilterChoice, WrongRequestsAreInputErrors) {
     EXPECT_EQ(error(logs, {-1.0, {}, {}}), "cutoff: -1 Hz is not between 0 and half the sampling rate, 100 Hz");
     EXPECT_EQ(error(logs, {{}, 13, {}}), "order: 13 is not in 1..12");
     EXPECT_EQ(error(logs, {{}, {}, 0}), "decimation: 0 is not a positive number");
+    EXPECT_EQ(error(logs, {{}, {}, {}, 1.0}), "minimum_speed: 1 is not a part of the top speed from 0 to below 1");
+    EXPECT_EQ(error(logs, {{}, {}, {}, -0.1}), "minimum_speed: -0.1 is not a part of the top speed from 0 to below 1");
     EXPECT_EQ(error({}, {}), "no log was given");
 }
 

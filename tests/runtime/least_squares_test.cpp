@@ -24,6 +24,12 @@ observation stack(const std::vector<Eigen::MatrixXd>& W, const std::vector<Eigen
     block.rate = 1.0;
     block.W = W;
     block.Y = Y;
+    Eigen::Index samples = 0;
+    for (const Eigen::MatrixXd& joint : W) {
+        block.kept.push_back(all_rows(1, joint.rows())[0]);
+        samples = std::max(samples, joint.rows());
+    }
+    block.t = Eigen::VectorXd::Zero(samples);
     rows.blocks = {block};
     return rows;
 }
@@ -173,6 +179,8 @@ TEST(LeastSquares, DoesNotDependOnHowTheRowsAreCutIntoBlocks) {
         for (const Eigen::Index start : {0, 5, 150}) {  // the first piece has fewer rows than columns
             const Eigen::Index n = start == 0 ? 5 : (start == 5 ? 145 : 250);
             observation_block piece;
+            piece.t = block.t.segment(start, n);
+            piece.kept = all_rows(2, n);
             for (std::size_t j = 0; j < 2; ++j) {
                 piece.W.push_back(block.W[j].middleRows(start, n));
                 piece.Y.push_back(block.Y[j].segment(start, n));

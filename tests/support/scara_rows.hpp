@@ -45,6 +45,7 @@ inline observation_block scara_block(double start, Eigen::Index rows, double rat
     block.file = "scara.csv";
     block.rate = rate;
     block.t = start + Eigen::ArrayXd::LinSpaced(rows, 0.0, static_cast<double>(rows - 1) / rate);
+    block.kept = all_rows(2, rows);
     block.W.assign(2, Eigen::MatrixXd::Zero(rows, 8));
     for (Eigen::Index k = 0; k < rows; ++k) {
         const motion a = multi_sine(block.t[k], 0);
@@ -63,6 +64,15 @@ inline observation_block scara_block(double start, Eigen::Index rows, double rat
         block.Y.push_back(W * chi);
     }
     return block;
+}
+
+/// Leaves out the rows of one joint whose sample `out(k)` names; its rows must be all samples before.
+template <typename Rule>
+void leave_out(observation_block& block, int joint, Rule out) {
+    std::vector<Eigen::Index>& kept = block.kept[joint];
+    std::erase_if(kept, out);
+    block.W[joint] = Eigen::MatrixXd(block.W[joint](kept, Eigen::all));
+    block.Y[joint] = Eigen::VectorXd(block.Y[joint](kept));
 }
 
 /// 40 s of rows at 20 Hz, in two blocks of 20 s.

@@ -11,11 +11,11 @@ namespace idim {
 
 /// What the user may fix of the filtering; what is left empty is chosen from the data by choose_filter.
 struct filter_request {
-    std::optional<double> cutoff;   ///< Butterworth cut-off of the position filter [Hz]
-    std::optional<int> order;       ///< its order (applied forward and backward), default 4
-    std::optional<int> decimation;  ///< one sample in n_d of the parallel decimation
-    std::optional<double>
-        minimum_speed;  ///< part of a joint's top speed below which its rows are left out, default 0.01
+    std::optional<double> cutoff = {};   ///< Butterworth cut-off of the position filter [Hz]
+    std::optional<int> order = {};       ///< its order (applied forward and backward), default 4
+    std::optional<int> decimation = {};  ///< one sample in n_d of the parallel decimation
+    /// Part of a joint's top speed below which its rows are left out, 0 to below 1, default 0.01.
+    std::optional<double> minimum_speed = {};
 };
 
 /// A joint whose position stays within this part of the largest range of any joint of a log is held in that log.
@@ -26,8 +26,8 @@ struct filter_choice {
     double cutoff = 0.0;  ///< [Hz]
     int order = 4;
     int decimation = 1;
-    std::string
-        reason;  ///< one sentence for the report: what was given, what was chosen from the data and by which figure
+    /// One sentence for the report: what was given, what was chosen from the data and by which figure.
+    std::string reason;
     double minimum_speed =
         0.0;  ///< part of a joint's top speed in a log, see select_rows (observation.hpp); 0 keeps all rows
 

@@ -1,0 +1,104 @@
+#include "emit/template_renderer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+
+#include "support/robot_files.hpp"
+
+namespace idim::generator {
+
+namespace {
+
+template_context small_context() {
+    template_context context;
+    context.robot = "arm";
+    context.version = "1.2.3";
+    context.robot_file = "arm.yaml";
+    context.input_hash = "0123456789abcdef";
+    context.constants = {"L = 0.5"};
+    context.effects = {"viscous_friction at j1"};
+    context.joints = {{"j1", false, 2.5, 3.0, "rad"}};
+    context.base_parameters = {{"ZZ1R", "kg*m^2", "ZZ1 + L^2*M1"}};
+    context.standard_parameters = {{"ZZ1", "kg*m^2", "ZZ1"}};
+    function_context function;
+    function.name = "gravity";
+    function.summary = "Less than <, more than > and \"quotes\" & ampersands.";
+    function.arguments = {{"q", "const Scalar* q", "q [1]", false, true}, {"G", "Scalar* G", "G [1]", true, true}};
+    function.functions = {"cos"};
+    function.statements = {"G[0] = cos(q[0]);"};
+    context.functions = {function};
+    return context;
+}
+
+class TemplateRenderer : public testing::Test {
+  protected:
+    TemplateRenderer() {
+        std::filesystem::copy(test::templates_folder + "/cpp", templates(), std::filesystem::copy_options::recursive);
+    }
+
+    std::string templates() const { return (folder_.path() / "cpp").string(); }
+
+    void append(const std::string& name, const std::string& text) const {
+        folder_.write("cpp/" + name, test::read_text(templates() + "/" + name) + text);
+    }
+
+    std::string error() const {
+        try {
+            render_cpp(small_context(), templates());
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+        return "no error";
+    }
+
+    test::temporary_folder folder_;
+};
+
+std::string text_of(const std::vector<rendered_file>& files, const std::string& name) {
+    const auto found = std::find_if(files.begin(), files.end(), [&](const rendered_file& f) { return f.name == name; });
+    return found == files.end() ? "" : found->text;
+}
+
+}  // namespace
+
+TEST_F(TemplateRenderer, PrintsEveryFunctionWithItsTextAsItIs) {
+    const auto files = render_cpp(small_context(), templates());
+    const std::string gravity = text_of(files, "gravity.hpp");
+    EXPECT_NE(gravity.find("Less than <, more than > and \"quotes\" & ampersands."), std::string::npos) << gravity;
+    EXPECT_NE(gravity.find("G[0] = cos(q[0]);"), std::string::npos);
+    EXPECT_NE(gravity.find("arm.yaml"), std::string::npos);
+    EXPECT_NE(gravity.find("0123456789abcdef"), std::string::npos);
+    for (const rendered_file& file : files) {
+        EXPECT_EQ(file.text.find("{{"), std::string::npos) << file.name;
+        EXPECT_EQ(file.text.find(templates()), std::string::npos) << file.name;
+    }
+}
+
+TEST_F(TemplateRenderer, ARobotWithoutConstantsAndEffectsIsPrinted) {
+    template_context context = small_context();
+    context.constants.clear();
+    context.effects.clear();
+    EXPECT_FALSE(text_of(render_cpp(context, templates()), "model.hpp").empty());
+}
+
+TEST_F(TemplateRenderer, AKeyThatNoOneProvidesIsAnErrorThatNamesIt) {
+    for (const char* tag :
+         {"{{no_such_key}}", "{{#no_such_key}}{{/no_such_key}}", "{{^no_such_key}}x{{/no_such_key}}"}) {
+        append("model.hpp.mustache", tag);
+        EXPECT_NE(error().find("no_such_key"), std::string::npos) << error();
+        EXPECT_NE(error().find("model.hpp.mustache"), std::string::npos) << error();
+    }
+}
+
+TEST_F(TemplateRenderer, ATemplateThatIsMissingOrMalformedIsAnErrorThatNamesIt) {
+    append("function.hpp.mustache", "{{#arguments}}");
+    EXPECT_NE(error().find("function.hpp.mustache"), std::string::npos) << error();
+    std::filesystem::remove(templates() + "/function.hpp.mustache");
+    EXPECT_NE(error().find("cannot read template"), std::string::npos) << error();
+    EXPECT_NE(error().find("function.hpp.mustache"), std::string::npos) << error();
+}
+
+}  // namespace idim::generator
