@@ -81,7 +81,7 @@ void add_filter_options(CLI::App& command, filter_request& request) {
     command.add_option("--decimation", request.decimation, "keep one row in so many; default: chosen from the data");
     command.add_option(
         "--minimum-speed", request.minimum_speed,
-        "leave out rows of a joint slower than this part of its top speed in the log; 0 keeps all; default 0.01");
+        "leave out rests of a joint: rows slower than this part of its top speed; 0 keeps all; default 0.01");
 }
 
 json finite(double value) {

@@ -169,7 +169,7 @@ void check_request(const filter_request& request, double rate) {
 
 std::string speed_reason(double minimum_speed) {
     return minimum_speed > 0.0
-               ? fmt::format("rows slower than {:.3g} % of a joint's top speed left out", 100.0 * minimum_speed)
+               ? fmt::format("rests (below {:.3g} % of a joint's top speed) left out", 100.0 * minimum_speed)
                : "rows kept at any speed";
 }
 

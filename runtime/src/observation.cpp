@@ -15,6 +15,7 @@
 namespace idim {
 namespace {
 
+/// Ten times the dwell of a reversal at the top acceleration within 1 % of the top speed: longer is a rest, or sticking.
 constexpr double rest_share = 0.2;
 
 using row_major_matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;

@@ -137,7 +137,7 @@ TEST(FilterChoice, WhatIsGivenIsKeptAndNamed) {
 TEST(FilterChoice, SlowestHundredthIsLeftOutUnlessTheUserSaysOtherwise) {
     const filter_choice usual = choose_filter({sinusoids(1e-4)}, {});
     EXPECT_EQ(usual.minimum_speed, 0.01);
-    EXPECT_NE(usual.reason.find("rows slower than 1 % of a joint's top speed left out"), std::string::npos);
+    EXPECT_NE(usual.reason.find("rests (below 1 % of a joint's top speed) left out"), std::string::npos);
     const filter_choice all = choose_filter({sinusoids(1e-4)}, {{}, {}, {}, 0.0});
     EXPECT_EQ(all.minimum_speed, 0.0);
     EXPECT_NE(all.reason.find("rows kept at any speed"), std::string::npos);

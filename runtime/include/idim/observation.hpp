@@ -41,14 +41,13 @@ struct observation {
 /// Every one of `samples` for each of `joints` joints.
 row_selection all_rows(int joints, Eigen::Index samples);
 
-/// The rows that are fit to identify from: those of joint j but where its own decimated speed is below
-/// choice.minimum_speed of its top speed in this log. There the model's sign(qd) is not the robot's: the joint sticks,
-/// or reverses at another instant.
-///  - A joint held in this log (held_range) keeps all its rows. It has noise for a speed, any rows left out by that
-///  would be
-///    arbitrary, and it is the only one to tell of gravity at that position.
+/// The rows that are fit to identify from: all of joint j but those of its rests, runs of rows whose own decimated speed
+/// is below choice.minimum_speed of its top speed in this log for longer than a reversal takes (ten times the dwell of a
+/// reversal at the joint's top acceleration within 1 % of its top speed). At rest, or sticking, friction may take any
+/// value up to that of breakaway, which no sign(qd) tells. Reversals are passed quickly and keep their rows.
+///  - A joint held in the whole log (held_range) keeps all its rows: it has noise for a speed, and it is the only one to
+///    tell of gravity at that position.
 ///  - The top speed is that of the log, not of all logs, so that a log of slow motion is not left out as a whole.
-///  - A moving joint loses the rows of its rests: at rest friction may take any value up to that of breakaway.
 /// Depends on the speeds alone, neither on the model nor on the torque. Throws std::invalid_argument if the log is too
 /// short to decimate.
 row_selection select_rows(const filtered_samples& samples, const filter_choice& choice);
@@ -59,8 +58,7 @@ observation observe(const idim_model_interface& model, const std::vector<filtere
                     const filter_choice& choice);
 
 /// The same with given rows, one selection per log: instruments along a simulated trajectory take those of the measured
-/// one
-/// (`kept` of its blocks). Throws std::invalid_argument if they do not fit the logs.
+/// one (`kept` of its blocks). Throws std::invalid_argument if they do not fit the logs.
 observation observe(const idim_model_interface& model, const std::vector<filtered_samples>& logs,
                     const filter_choice& choice, const std::vector<row_selection>& kept);
 
