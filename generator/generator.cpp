@@ -46,6 +46,7 @@ base_report report(const robot_model& model) {
     result.largest_dropped_pivot = evidence.largest_dropped;
     result.exact_rank = evidence.exact_rank;
     result.exact_points = evidence.exact_points;
+    result.modulo_prime_only = evidence.modulo_prime_only;
     return result;
 }
 

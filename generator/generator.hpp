@@ -22,6 +22,7 @@ struct base_report {
     double largest_dropped_pivot = 0.0;
     int exact_rank = 0;
     int exact_points = 0;
+    int modulo_prime_only = 0;
 };
 
 struct operation_table {

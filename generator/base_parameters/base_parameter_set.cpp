@@ -106,13 +106,17 @@ base_parameter_set find_base_parameters(const kinematic_tree& tree, const standa
     const column_selection by_qr = select_by_qr(sample_regressor(W, tree), preference, qr_tolerance);
     regrouping groups(W, tree, preference);
     compare(by_qr, groups.selection());
-    const std::vector<regrouped_column> columns = groups.columns();
-    groups.prove(columns);
+    const std::vector<regrouped_column> columns = groups.columns(by_qr.beta);
+    const int modulo_prime_only = groups.prove(columns);
 
     base_parameter_set result;
     result.standard = W.columns;
-    result.evidence = {static_cast<int>(by_qr.kept.size()), by_qr.smallest_kept, by_qr.largest_dropped,
-                       static_cast<int>(groups.selection().kept.size()), groups.points()};
+    result.evidence = {static_cast<int>(by_qr.kept.size()),
+                       by_qr.smallest_kept,
+                       by_qr.largest_dropped,
+                       static_cast<int>(groups.selection().kept.size()),
+                       groups.points(),
+                       modulo_prime_only};
     std::vector<std::size_t> kept = by_qr.kept;
     std::sort(kept.begin(), kept.end());
     for (const std::size_t p : kept) {

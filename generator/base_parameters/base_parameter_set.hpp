@@ -33,6 +33,7 @@ struct rank_evidence {
     double largest_dropped = 0.0;  ///< relative pivot
     int exact_rank = 0;            ///< of the regressor at rational points, proven from both sides
     int exact_points = 0;
+    int modulo_prime_only = 0;  ///< dropped columns whose dependence is shown modulo a prime but not in rationals
 };
 
 /// QR and exact arithmetic do not agree; what() gives both figures.

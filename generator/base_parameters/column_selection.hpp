@@ -13,6 +13,7 @@ struct column_selection {
     std::vector<std::size_t>
         dropped;                   ///< in the order of preference; columns that are zero throughout are in neither list
     double smallest_kept = 1.0;    ///< part of a kept column outside the span of those before it, relative; smallest
+    Eigen::MatrixXd beta;          ///< kept x dropped: W_dropped = W_kept beta, by least squares
     double largest_dropped = 0.0;  ///< the same of a dropped one; largest
 };
 

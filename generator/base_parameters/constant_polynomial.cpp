@@ -6,6 +6,8 @@ namespace idim::generator {
 
 namespace {
 
+constexpr int longest_denominator = 1000;  // of a fraction that reads better than a decimal number
+
 rational power(const rational& base, int exponent) {
     return cln::expt(base, exponent);
 }
@@ -40,6 +42,7 @@ std::string constant_polynomial::text(const kinematic_tree& tree) const {
         values.push_back(cln::the<cln::cl_RA>(constant.value.to_cl_N()));
     }
     for (const auto& [coefficient, m] : terms) {
+        named = named && cln::denominator(coefficient) < longest_denominator;
         for (const auto& [constant, exponent] : m) {
             named = named && tree.constants[constant].is_named;
         }

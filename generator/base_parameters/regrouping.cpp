@@ -1,9 +1,11 @@
 #include "base_parameters/regrouping.hpp"
 
+#include <cln/dfloat.h>
 #include <cln/real.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "base_parameters/base_parameter_set.hpp"
@@ -136,17 +138,6 @@ std::vector<std::vector<std::size_t>> regrouping::constant_groups() const {
     return groups;
 }
 
-constant_polynomial regrouping::number(prime_field residue) const {
-    bool found = true;
-    const rational value = reconstruct(residue, found);
-    if (!found) {
-        throw rank_disagreement(
-            "base parameters: a regrouping coefficient is neither a polynomial in the constants nor a short "
-            "fraction; give the geometry in named constants");
-    }
-    return {{{value, {}}}};
-}
-
 std::vector<std::size_t> regrouping::dependence(const elimination_series& series, std::size_t k, std::size_t d) const {
     const exact_selection& base = series.samples.front();
     std::vector<std::size_t> groups;
@@ -222,13 +213,28 @@ std::optional<constant_polynomial> regrouping::formula(elimination_series& serie
     return holds ? found : std::nullopt;
 }
 
-std::vector<regrouped_column> regrouping::columns() const {
+regrouped_column regrouping::column(elimination_series& series, std::size_t k, std::size_t d, double by_qr) const {
+    regrouped_column result{own_.kept[k], own_.dropped[d], {}, true, 0};
+    if (const auto symbolic = formula(series, k, d)) {
+        result.coefficient = *symbolic;
+    } else {
+        // A short fraction if that is what the QR sees too, otherwise the QR's own number.
+        bool found = true;
+        const rational fraction = reconstruct(own_.beta[k][d], found);
+        result.is_exact = found && std::abs(to_double(fraction) - by_qr) < 1e-9 * std::max(1.0, std::abs(by_qr));
+        const rational value = result.is_exact ? fraction : cln::rational(cln::cl_DF(by_qr));
+        result.coefficient.terms.emplace_back(value, monomial{});
+    }
+    result.exact = result.coefficient.value(own_constants_);
+    return result;
+}
+
+std::vector<regrouped_column> regrouping::columns(const Eigen::MatrixXd& beta) const {
     elimination_series series = eliminate_at_random_constants();
     std::vector<regrouped_column> result;
     for_each_coefficient([&](std::size_t k, std::size_t d) {
-        const auto symbolic = formula(series, k, d);
-        const constant_polynomial coefficient = symbolic ? *symbolic : number(own_.beta[k][d]);
-        result.push_back({own_.kept[k], own_.dropped[d], coefficient, coefficient.value(own_constants_)});
+        const double by_qr = beta(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(d));
+        result.push_back(column(series, k, d, by_qr));
     });
     return result;
 }
@@ -255,14 +261,20 @@ std::vector<std::vector<rational>> regrouping::exact_rows(int point_number) cons
     return rows;
 }
 
-void regrouping::prove(const std::vector<regrouped_column>& columns) const {
+int regrouping::prove(const std::vector<regrouped_column>& columns) const {
+    std::vector<std::size_t> exact = own_.dropped;
+    for (const regrouped_column& column : columns) {
+        if (!column.is_exact) {
+            exact.erase(std::remove(exact.begin(), exact.end(), column.dropped), exact.end());
+        }
+    }
     for (int s = 0; s < points_; ++s) {
         for (std::vector<rational>& row : exact_rows(s)) {
             for (const regrouped_column& column : columns) {
                 row[column.dropped] = row[column.dropped] - column.exact * row[column.kept];
             }
-            const bool holds = std::all_of(own_.dropped.begin(), own_.dropped.end(),
-                                           [&row](std::size_t d) { return cln::zerop(row[d]); });
+            const bool holds =
+                std::all_of(exact.begin(), exact.end(), [&row](std::size_t d) { return cln::zerop(row[d]); });
             if (!holds) {
                 throw rank_disagreement(
                     fmt::format("base parameters: rank {} modulo a prime, but the regrouping does not hold "
@@ -271,6 +283,7 @@ void regrouping::prove(const std::vector<regrouped_column>& columns) const {
             }
         }
     }
+    return static_cast<int>(own_.dropped.size() - exact.size());
 }
 
 }  // namespace idim::generator

@@ -16,7 +16,8 @@ struct regrouped_column {
     std::size_t kept = 0;
     std::size_t dropped = 0;
     constant_polynomial coefficient;
-    rational exact;  ///< its value at the robot's own constants
+    bool is_exact = true;  ///< otherwise a number from the QR, proven modulo a prime only
+    rational exact;        ///< its value at the robot's own constants
 };
 
 /// Exact side of the search for base parameters: which columns of the standard regressor depend on which, as formulas
@@ -33,11 +34,14 @@ class regrouping {
     /// All coefficients as polynomials in the constants: the elimination repeated at random constants shows on which of
     /// them a coefficient depends, and a linear system gives its monomials. Where the rank at the robot's own constants
     /// is a special case, or a coefficient is no such polynomial, it is a number.
-    std::vector<regrouped_column> columns() const;
+    /// `beta`: the same coefficients by QR, kept x dropped in the order of selection().
+    std::vector<regrouped_column> columns(const Eigen::MatrixXd& beta) const;
 
-    /// Inserts the coefficients at every rational point, in CLN rationals. Throws rank_disagreement where the dropped
-    /// columns are not these combinations of the kept ones.
-    void prove(const std::vector<regrouped_column>& columns) const;
+    /// Inserts the coefficients at every rational point, in CLN rationals. Throws rank_disagreement where a dropped
+    /// column is not this combination of the kept ones. Returns the number of dropped columns left out because a
+    /// coefficient is no exact number (oblique axes with many constants): for these the elimination modulo a prime is
+    /// the evidence.
+    int prove(const std::vector<regrouped_column>& columns) const;
 
   private:
     /// The elimination repeated at random constants: `samples` at all of them drawn anew, `changed` with one group
@@ -63,7 +67,7 @@ class regrouping {
     std::vector<std::size_t> dependence(const elimination_series& series, std::size_t k, std::size_t d) const;
     const std::vector<monomial>& candidates(elimination_series& series, const std::vector<std::size_t>& set) const;
     std::optional<constant_polynomial> formula(elimination_series& series, std::size_t k, std::size_t d) const;
-    constant_polynomial number(prime_field residue) const;
+    regrouped_column column(elimination_series& series, std::size_t k, std::size_t d, double by_qr) const;
 
     const standard_regressor& W_;
     const kinematic_tree& tree_;

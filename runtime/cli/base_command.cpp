@@ -28,7 +28,8 @@ json to_json(const generator::base_report& base) {
               {"smallest_kept_pivot", base.smallest_kept_pivot},
               {"largest_dropped_pivot", base.largest_dropped_pivot},
               {"exact_rank", base.exact_rank},
-              {"exact_points", base.exact_points}}}};
+              {"exact_points", base.exact_points},
+              {"modulo_prime_only", base.modulo_prime_only}}}};
 }
 
 void print(const generator::base_report& base) {
@@ -51,6 +52,11 @@ void print(const generator::base_report& base) {
         "rank {} by QR (smallest kept pivot {:.1e}, largest dropped {:.1e}), {} in exact arithmetic at {} rational "
         "points\n",
         base.qr_rank, base.smallest_kept_pivot, base.largest_dropped_pivot, base.exact_rank, base.exact_points);
+    if (base.modulo_prime_only > 0) {
+        fmt::print(
+            "  ({} columns have coefficients that are no short formula: printed as numbers, shown modulo a prime)\n",
+            base.modulo_prime_only);
+    }
 }
 
 }  // namespace

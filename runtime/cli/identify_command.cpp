@@ -170,7 +170,8 @@ std::string explain_standstill(const loaded_robot& robot, const std::vector<std:
     for (const auto& parameter : robot.generated.base.parameters) {
         names.push_back(parameter.name);
     }
-    return fmt::format("the data does not excite {}: joint {} never moves", fmt::join(names, " "), fmt::join(at_rest, ", "));
+    return fmt::format("the data does not excite {}: joint {} never moves", fmt::join(names, " "),
+                       fmt::join(at_rest, ", "));
 }
 
 int run(const identify_options& options) {

@@ -19,7 +19,7 @@ struct validate_options {
 filter_choice filter_for(const validate_options& options, const identified_parameters& parameters,
                          const std::vector<idim::log>& logs) {
     const filter_request& asked = options.filter;
-    if (parameters.filter && !asked.cutoff && !asked.order && !asked.decimation) {
+    if (parameters.filter && !asked.cutoff && !asked.order && !asked.decimation && !asked.minimum_speed) {
         return *parameters.filter;
     }
     return choose_filter(logs, asked);

@@ -15,7 +15,8 @@
 namespace idim {
 namespace {
 
-/// Ten times the dwell of a reversal at the top acceleration within 1 % of the top speed: longer is a rest, or sticking.
+/// Ten times the dwell of a reversal at the top acceleration within 1 % of the top speed: longer is a rest, or
+/// sticking.
 constexpr double rest_share = 0.2;
 
 using row_major_matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -126,13 +127,13 @@ observation_block observe_log(const idim_model_interface& model, const filtered_
 }
 
 /// Places of all samples but those of rests: runs of samples slower than `part` of the top speed that last longer than
-/// `rest_share` of the time in which the top acceleration reaches the top speed. A reversal at that acceleration passes
-/// through the slow range in 2 `part` of this time.
+/// `rest_share` of the time in which the top acceleration reaches the top speed, and than two samples. A reversal at
+/// that acceleration passes through the slow range in 2 `part` of this time.
 std::vector<Eigen::Index> moving_rows(const Eigen::Ref<const Eigen::VectorXd>& speed, double part) {
     const Eigen::Index n = speed.size();
     const double top_speed = speed.cwiseAbs().maxCoeff();
     const double top_change = n > 1 ? (speed.tail(n - 1) - speed.head(n - 1)).cwiseAbs().maxCoeff() : 0.0;
-    const double longest = top_change > 0.0 ? rest_share * top_speed / top_change : 0.0;  // in samples
+    const double longest = std::max(2.0, top_change > 0.0 ? rest_share * top_speed / top_change : 0.0);  // in samples
     std::vector<Eigen::Index> places;
     for (Eigen::Index k = 0; k < n;) {
         Eigen::Index end = k;

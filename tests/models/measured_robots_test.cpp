@@ -79,9 +79,11 @@ TEST_F(MeasuredRobot, PandaIsPredictedOnATrajectoryItWasNotIdentifiedOn) {
 
 TEST_F(MeasuredRobot, Tx40WithoutItsWristCouplingLeavesTheErrorOfJointsFiveAndSix) {
     IDIM_REQUIRE_DATA(log, "tx40/ident.csv.gz");
-    const json result = run({"identify", robot_file("tx40"), log->string(), "--method", "wls"});
-    EXPECT_LE(result["residual"]["relative_error"].get<double>(), 0.12);
-    // Percent, found there with another band and removal of slow rows: near them means within a quarter.
+    const json own = run({"identify", robot_file("tx40"), log->string(), "--method", "wls"});
+    EXPECT_LE(own["residual"]["relative_error"].get<double>(), 0.12);
+    // Percent, found there with rows up to 80 Hz and slow rows removed: near them means within a quarter.
+    const json result = run({"identify", robot_file("tx40"), log->string(), "--method", "wls", "--cutoff", "100",
+                             "--order", "4", "--decimation", "25"});
     const std::vector<double> published = {6.7, 7.3, 8.7, 10.8, 49.8, 30.9};
     for (std::size_t j = 0; j < published.size(); ++j) {
         const double error = 100.0 * result["residual"]["joints"][j]["relative_error"].get<double>();

@@ -44,7 +44,7 @@ TEST(FilterChoice, BandHoldsTheMotionAndTheCutoffLiesAboveIt) {
         EXPECT_EQ(choice.order, 4);
         EXPECT_GE(choice.band(200.0), 1.5) << noise;
         EXPECT_LE(choice.band(200.0), 6.0) << noise;
-        EXPECT_NEAR(choice.cutoff / choice.band(200.0), 2.58, 0.15)
+        EXPECT_NEAR(choice.cutoff / choice.band(200.0), 4.22, 0.25)
             << "two digits of the cut-off, floor of the decimation";
         EXPECT_NE(choice.reason.find("sinks into its noise"), std::string::npos) << choice.reason;
     }
@@ -123,10 +123,9 @@ TEST(FilterChoice, WhatIsGivenIsKeptAndNamed) {
     EXPECT_EQ(all.cutoff, 20.0);
     EXPECT_EQ(all.order, 2);
     EXPECT_EQ(all.decimation, 20);
-    EXPECT_EQ(
-        all.reason,
-        "Butterworth order 2 given; cut-off 20 Hz given; decimation 20 given: the rows keep 0 to 4 Hz; rows slower "
-        "than 2.5 % of a joint's top speed left out");
+    EXPECT_EQ(all.reason,
+              "Butterworth order 2 given; cut-off 20 Hz given; decimation 20 given: the rows keep 0 to 4 Hz; rests "
+              "(below 2.5 % of a joint's top speed) left out");
     EXPECT_EQ(all.minimum_speed, 0.025);
 
     const filter_choice decimation = choose_filter(logs, {{}, {}, 7});
@@ -134,7 +133,7 @@ TEST(FilterChoice, WhatIsGivenIsKeptAndNamed) {
     EXPECT_EQ(decimation.cutoff, choose_filter(logs, {}).cutoff);
 }
 
-TEST(FilterChoice, SlowestHundredthIsLeftOutUnlessTheUserSaysOtherwise) {
+TEST(FilterChoice, RestsAreLeftOutUnlessTheUserSaysOtherwise) {
     const filter_choice usual = choose_filter({sinusoids(1e-4)}, {});
     EXPECT_EQ(usual.minimum_speed, 0.01);
     EXPECT_NE(usual.reason.find("rests (below 1 % of a joint's top speed) left out"), std::string::npos);
@@ -144,8 +143,8 @@ TEST(FilterChoice, SlowestHundredthIsLeftOutUnlessTheUserSaysOtherwise) {
 }
 
 TEST(FilterChoice, DecimationFollowsFromAGivenCutoff) {
-    // |H|^2 = 1 / (1 + (f / 20)^8) loses 5e-4 at f = 20 / 2.586 Hz, and 0.8 * 200 / 2 / 7.73 = 10.3.
-    EXPECT_EQ(choose_filter({sinusoids(1e-4)}, {20.0, {}, {}}).decimation, 10);
+    // |H|^2 = 1 / (1 + (f / 20)^8) loses 1e-5 at f = 20 / 4.217 Hz, and 0.8 * 200 / 2 / 4.743 = 16.9.
+    EXPECT_EQ(choose_filter({sinusoids(1e-4)}, {20.0, {}, {}}).decimation, 16);
     EXPECT_EQ(choose_filter({sinusoids(1e-4)}, {90.0, 12, {}}).decimation, 1);
 }
 

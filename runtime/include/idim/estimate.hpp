@@ -28,7 +28,8 @@ struct iteration {
     double relative_error = 0.0;
 };
 
-/// Result of an identification; a numeric failure is a result that explains itself, never a NaN that passes for a value.
+/// Result of an identification; a numeric failure is a result that explains itself, never a NaN that passes for a
+/// value.
 struct estimate {
     Eigen::VectorXd chi;         ///< [b]
     Eigen::MatrixXd covariance;  ///< [b x b], robust to the autocorrelation of the residual
@@ -39,7 +40,8 @@ struct estimate {
     double scaled_condition_number = 0.0;
     Eigen::Index samples = 0;  ///< rows used
     std::vector<double> joint_deviation;
-    std::vector<double> correlation_length;  ///< per joint: integrated autocorrelation time of the residual [rows], >= 1
+    std::vector<double>
+        correlation_length;  ///< per joint: integrated autocorrelation time of the residual [rows], >= 1
     std::vector<iteration> iterations;
     error_summary residual;
     std::vector<int> not_excited;  ///< columns in the null space of W when rank < b; then chi is empty
@@ -69,9 +71,9 @@ struct essential_parameters {
     double p_value = 1.0;
 };
 
-/// Backward elimination with an F test: drops the parameter with the largest relative deviation as long as the F test of all the
-/// dropped ones against the full model stays above `significance`, its degrees of freedom those of the effective
-/// (autocorrelation-corrected) number of samples.
+/// Backward elimination with an F test: drops the parameter with the largest relative deviation as long as the F test
+/// of all the dropped ones against the full model stays above `significance`, its degrees of freedom those of the
+/// effective (autocorrelation-corrected) number of samples.
 essential_parameters find_essential(const observation& rows, const estimate& full, double significance = 0.05);
 
 }  // namespace idim

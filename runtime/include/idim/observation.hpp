@@ -41,11 +41,13 @@ struct observation {
 /// Every one of `samples` for each of `joints` joints.
 row_selection all_rows(int joints, Eigen::Index samples);
 
-/// The rows that are fit to identify from: all of joint j but those of its rests, runs of rows whose own decimated speed
-/// is below choice.minimum_speed of its top speed in this log for longer than a reversal takes (ten times the dwell of a
-/// reversal at the joint's top acceleration within 1 % of its top speed). At rest, or sticking, friction may take any
-/// value up to that of breakaway, which no sign(qd) tells. Reversals are passed quickly and keep their rows.
-///  - A joint held in the whole log (held_range) keeps all its rows: it has noise for a speed, and it is the only one to
+/// The rows that are fit to identify from: all of joint j but those of its rests, runs of rows whose own decimated
+/// speed is below choice.minimum_speed of its top speed in this log for longer than a reversal takes (ten times the
+/// dwell of a reversal at the joint's top acceleration within 1 % of its top speed, and two samples). At rest, or
+/// sticking, friction may take any value up to that of breakaway, which no sign(qd) tells. Reversals are passed quickly
+/// and keep their rows.
+///  - A joint held in the whole log (held_range) keeps all its rows: it has noise for a speed, and it is the only one
+///  to
 ///    tell of gravity at that position.
 ///  - The top speed is that of the log, not of all logs, so that a log of slow motion is not left out as a whole.
 /// Depends on the speeds alone, neither on the model nor on the torque. Throws std::invalid_argument if the log is too
