@@ -104,7 +104,7 @@ base_parameter_set find_base_parameters(const kinematic_tree& tree, const standa
     const standard_regressor W = build_standard_regressor(tree, parameters);
     const std::vector<std::size_t> preference = preference_order(tree, parameters);
     const column_selection by_qr = select_by_qr(sample_regressor(W, tree), preference, qr_tolerance);
-    regrouping groups(W, tree, preference);
+    regrouping groups(W, tree, parameters, preference);
     compare(by_qr, groups.selection());
     const std::vector<regrouped_column> columns = groups.columns(by_qr.beta);
     const int modulo_prime_only = groups.prove(columns);

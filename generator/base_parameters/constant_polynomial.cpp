@@ -12,6 +12,14 @@ rational power(const rational& base, int exponent) {
     return cln::expt(base, exponent);
 }
 
+monomial product(const monomial& a, const monomial& b) {
+    std::map<std::size_t, int> exponents(a.begin(), a.end());
+    for (const auto& [constant, exponent] : b) {
+        exponents[constant] += exponent;
+    }
+    return {exponents.begin(), exponents.end()};
+}
+
 std::string printed(const monomial& m, const kinematic_tree& tree) {
     std::string text;
     for (const auto& [constant, exponent] : m) {
@@ -23,9 +31,38 @@ std::string printed(const monomial& m, const kinematic_tree& tree) {
 
 }  // namespace
 
+constant_polynomial::constant_polynomial(const rational& number) {
+    add(number, {});
+}
+
+void constant_polynomial::add(const rational& coefficient, const monomial& m) {
+    rational& sum = terms.try_emplace(m, rational(0)).first->second;
+    sum = sum + coefficient;
+    if (cln::zerop(sum)) {
+        terms.erase(m);
+    }
+}
+
+constant_polynomial& constant_polynomial::operator+=(const constant_polynomial& other) {
+    for (const auto& [m, coefficient] : other.terms) {
+        add(coefficient, m);
+    }
+    return *this;
+}
+
+constant_polynomial operator*(const constant_polynomial& a, const constant_polynomial& b) {
+    constant_polynomial result;
+    for (const auto& [m, coefficient] : a.terms) {
+        for (const auto& [other, factor] : b.terms) {
+            result.add(coefficient * factor, product(m, other));
+        }
+    }
+    return result;
+}
+
 rational constant_polynomial::value(const std::vector<rational>& constants) const {
     rational sum = 0;
-    for (const auto& [coefficient, m] : terms) {
+    for (const auto& [m, coefficient] : terms) {
         rational product = coefficient;
         for (const auto& [constant, exponent] : m) {
             product = product * power(constants[constant], exponent);
@@ -41,7 +78,7 @@ std::string constant_polynomial::text(const kinematic_tree& tree) const {
     for (const kinematic_constant& constant : tree.constants) {
         values.push_back(cln::the<cln::cl_RA>(constant.value.to_cl_N()));
     }
-    for (const auto& [coefficient, m] : terms) {
+    for (const auto& [m, coefficient] : terms) {
         named = named && cln::denominator(coefficient) < longest_denominator;
         for (const auto& [constant, exponent] : m) {
             named = named && tree.constants[constant].is_named;
@@ -51,7 +88,7 @@ std::string constant_polynomial::text(const kinematic_tree& tree) const {
         return to_decimal(value(values));
     }
     std::string text;
-    for (const auto& [coefficient, m] : terms) {
+    for (const auto& [m, coefficient] : terms) {
         const bool negative = cln::minusp(coefficient);
         const rational magnitude = cln::abs(coefficient);
         const std::string factors = printed(m, tree);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,13 +10,21 @@
 
 namespace idim::generator {
 
-/// Product of powers of constants: (index into kinematic_tree::constants, exponent).
+/// Product of powers of constants: (index into kinematic_tree::constants, exponent), by ascending index.
 using monomial = std::vector<std::pair<std::size_t, int>>;
 
 /// A coefficient of a regrouping, exact: a sum of rational multiples of monomials in the constants of the robot, such
 /// as D3^2 + R3^2.
 struct constant_polynomial {
-    std::vector<std::pair<rational, monomial>> terms;
+    std::map<monomial, rational> terms;  ///< monomial -> coefficient, none of them zero
+
+    constant_polynomial() = default;
+    explicit constant_polynomial(const rational& number);
+
+    bool is_zero() const { return terms.empty(); }
+    void add(const rational& coefficient, const monomial& m);
+    constant_polynomial& operator+=(const constant_polynomial& other);
+    friend constant_polynomial operator*(const constant_polynomial& a, const constant_polynomial& b);
 
     rational value(const std::vector<rational>& constants) const;
     /// "L^2", "2*RL4", "D3^2 + R3^2"; a decimal number where a bare number of the description takes part.

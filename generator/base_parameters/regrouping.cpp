@@ -5,7 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 #include <optional>
 
 #include "base_parameters/base_parameter_set.hpp"
@@ -15,7 +18,8 @@ namespace idim::generator {
 
 namespace {
 
-constexpr std::size_t most_groups = 5;     // constants that one coefficient may depend on and still be a formula
+using GiNaC::ex;
+
 constexpr std::uint64_t point_height = 7;  // small rationals keep the exact proof short
 
 constant_values by_symbol(const expression_graph& graph, const std::vector<rational>& constants) {
@@ -32,6 +36,9 @@ constant_values by_symbol(const expression_graph& graph, const std::vector<ratio
 std::optional<std::vector<prime_field>> fit(const std::vector<monomial>& candidates,
                                             const std::vector<std::vector<prime_field>>& constants,
                                             const std::vector<prime_field>& samples) {
+    if (std::all_of(samples.begin(), samples.end(), [](prime_field v) { return v.is_zero(); })) {
+        return std::vector<prime_field>(candidates.size());
+    }
     std::vector<std::vector<prime_field>> rows;
     for (std::size_t s = 0; s < samples.size(); ++s) {
         std::vector<prime_field> row;
@@ -66,9 +73,7 @@ std::optional<constant_polynomial> polynomial(const std::vector<monomial>& candi
         if (!found) {
             return std::nullopt;
         }
-        if (!cln::zerop(coefficient)) {
-            result.terms.emplace_back(coefficient, candidates[i]);
-        }
+        result.add(coefficient, candidates[i]);
     }
     return result;
 }
@@ -81,15 +86,61 @@ std::vector<prime_field> to_field(const std::vector<rational>& values) {
     return result;
 }
 
+std::vector<std::size_t> positions(std::size_t count) {
+    std::vector<std::size_t> result(count);
+    std::iota(result.begin(), result.end(), std::size_t{0});
+    return result;
+}
+
+/// The given columns of the rows that are not zero in all of them, as many as an elimination needs.
+std::vector<std::vector<prime_field>> restrict_to(const std::vector<std::vector<prime_field>>& rows,
+                                                  const std::vector<std::size_t>& columns) {
+    std::vector<std::vector<prime_field>> result;
+    for (const auto& row : rows) {
+        std::vector<prime_field> part;
+        for (const std::size_t c : columns) {
+            part.push_back(row[c]);
+        }
+        const bool empty = std::all_of(part.begin(), part.end(), [](prime_field v) { return v.is_zero(); });
+        if (!empty && result.size() < columns.size() + 5) {
+            result.push_back(part);
+        }
+    }
+    return result;
+}
+
+/// Polynomials through the coefficients of several eliminations, columns counted in `local`; empty where one has none.
+std::map<std::size_t, std::map<std::size_t, constant_polynomial>> fit_coefficients(
+    const std::vector<exact_selection>& eliminations, const std::vector<std::vector<prime_field>>& constants,
+    const std::vector<monomial>& monomials, const std::vector<std::size_t>& local, std::size_t first_target) {
+    std::map<std::size_t, std::map<std::size_t, constant_polynomial>> table;
+    const exact_selection& first = eliminations.front();
+    for (std::size_t d = 0; d < first.dropped.size(); ++d) {
+        for (std::size_t k = 0; first.dropped[d] >= first_target && k < first.kept.size(); ++k) {
+            std::vector<prime_field> values;
+            for (const exact_selection& elimination : eliminations) {
+                values.push_back(elimination.beta[k][d]);
+            }
+            const auto residues = fit(monomials, constants, values);
+            const auto found = residues ? polynomial(monomials, *residues) : std::nullopt;
+            if (!found) {
+                return {};
+            }
+            table[local[first.dropped[d]]][local[first.kept[k]]] = *found;
+        }
+    }
+    return table;
+}
+
 }  // namespace
 
-regrouping::regrouping(const standard_regressor& W, const kinematic_tree& tree,
+regrouping::regrouping(const standard_regressor& W, const kinematic_tree& tree, const standard_parameters& parameters,
                        const std::vector<std::size_t>& preference)
-    : W_(W), tree_(tree), preference_(preference) {
+    : W_(W), tree_(tree), parameters_(parameters), preference_(preference) {
     // Rows for the largest rank there can be, and some to spare: rows of outer joints see few columns.
     points_ = W.columns / W.dof + 3;
     own_constants_ = draw_constants(0);
-    own_ = select_at(own_constants_);
+    own_ = select_exactly(rows_at(own_constants_), preference_);
 }
 
 std::vector<rational> regrouping::draw_constants(std::uint64_t seed) const {
@@ -109,9 +160,9 @@ std::vector<rational> regrouping::draw_constants(std::uint64_t seed) const {
     return values;
 }
 
-exact_selection regrouping::select_at(const std::vector<rational>& constants) const {
+regrouping::field_rows regrouping::rows_at(const std::vector<rational>& constants) const {
     const constant_values values = by_symbol(W_.graph, constants);
-    std::vector<std::vector<prime_field>> rows;
+    field_rows rows;
     for (int s = 0; s < points_; ++s) {
         const std::size_t first = rows.size();
         rows.resize(first + static_cast<std::size_t>(W_.dof),
@@ -123,130 +174,152 @@ exact_selection regrouping::select_at(const std::vector<rational>& constants) co
                 [static_cast<std::size_t>(W_.column_of_output[k])] = entries[k];
         }
     }
-    return select_exactly(std::move(rows), preference_);
+    return rows;
 }
 
-std::vector<std::vector<std::size_t>> regrouping::constant_groups() const {
+std::vector<std::vector<std::size_t>> regrouping::constants_of(const kinematic_joint& joint) const {
     std::vector<std::vector<std::size_t>> groups;
     for (std::size_t i = 0; i < tree_.constants.size(); ++i) {
-        if (tree_.constants[i].is_sine) {
+        const kinematic_constant& constant = tree_.constants[i];
+        const GiNaC::symbol& symbol = tree_.constants[constant.is_sine ? i - 1 : i].symbol;
+        const std::array<ex, 8> entries = {joint.b,         joint.d,         joint.r,         joint.rate,
+                                           joint.gamma.cos, joint.alpha.cos, joint.theta.cos, joint.position()[2]};
+        const bool enters =
+            std::any_of(entries.begin(), entries.end(), [&symbol](const ex& e) { return e.has(symbol); });
+        if (enters && constant.is_sine) {
             groups.back().push_back(i);
-        } else {
+        } else if (enters) {
             groups.push_back({i});
         }
     }
     return groups;
 }
 
-std::vector<std::size_t> regrouping::dependence(const elimination_series& series, std::size_t k, std::size_t d) const {
-    const exact_selection& base = series.samples.front();
-    std::vector<std::size_t> groups;
-    for (std::size_t g = 0; g < series.changed.size(); ++g) {
-        const exact_selection& other = series.changed[g];
-        if (other.kept != base.kept || !(other.beta[k][d] == base.beta[k][d])) {
-            groups.push_back(g);
-        }
-    }
-    return groups;
+std::vector<std::size_t> regrouping::columns_of(const std::vector<std::size_t>& among, int link) const {
+    std::vector<std::size_t> result;
+    std::copy_if(among.begin(), among.end(), std::back_inserter(result),
+                 [this, link](std::size_t p) { return parameters_.all[p].joint == link; });
+    return result;
 }
 
-const std::vector<monomial>& regrouping::candidates(elimination_series& series,
-                                                    const std::vector<std::size_t>& set) const {
-    const auto [at, fresh] = series.candidates.try_emplace(set);
-    if (fresh && set.size() <= most_groups) {
-        std::vector<std::vector<std::size_t>> chosen;
-        for (const std::size_t g : set) {
-            chosen.push_back(series.groups[g]);
+void regrouping::sample(sampled_regressor& samples, std::size_t s,
+                        const std::vector<std::vector<std::size_t>>& own_groups, std::size_t variant) const {
+    const std::vector<rational> own = draw_constants(s + 1);
+    std::vector<rational> drawn = draw_constants(s + 1 + 1000 * variant);
+    for (const std::vector<std::size_t>& group : own_groups) {
+        for (const std::size_t i : group) {
+            drawn[i] = own[i];
         }
-        at->second = candidate_monomials(chosen);
     }
-    return at->second;
+    samples.constants.push_back(to_field(drawn));
+    samples.rows.push_back(rows_at(drawn));
 }
 
-regrouping::elimination_series regrouping::eliminate_at_random_constants() const {
-    elimination_series series;
-    series.groups = constant_groups();
-    const std::vector<rational> base = draw_constants(1);
-    const std::vector<rational> other = draw_constants(2);
-    series.samples.push_back(select_at(base));
-    series.constants.push_back(to_field(base));
-    if (series.samples.front().kept != own_.kept || series.samples.front().dropped != own_.dropped) {
+regrouping::formula_table regrouping::relate_to_antecedent(int link, std::size_t variants,
+                                                           sampled_regressor& samples) const {
+    const kinematic_joint& joint = tree_.joints[static_cast<std::size_t>(link)];
+    const std::vector<std::size_t> targets = columns_of(own_.dropped, link);
+    const std::vector<std::vector<std::size_t>> groups = constants_of(joint);
+    const std::vector<monomial> monomials = candidate_monomials(groups);
+    if (targets.empty()) {
         return {};
     }
-    for (const std::vector<std::size_t>& group : series.groups) {
-        std::vector<rational> constants = base;
-        for (const std::size_t i : group) {
-            constants[i] = other[i];
-        }
-        series.changed.push_back(select_at(constants));
+    const std::size_t draws = monomials.size() + 3;
+    while (samples.rows.size() < draws * variants) {
+        sample(samples, samples.rows.size() / variants, groups, samples.rows.size() % variants);
     }
-    std::size_t needed = 0;
-    for_each_coefficient([&](std::size_t k, std::size_t d) {
-        needed = std::max(needed, candidates(series, dependence(series, k, d)).size());
-    });
-    for (std::size_t s = 1; needed > 1 && s < needed + 3; ++s) {
-        const std::vector<rational> drawn = draw_constants(s + 2);
-        const exact_selection sample = select_at(drawn);
-        if (sample.kept == own_.kept) {
-            series.samples.push_back(sample);
-            series.constants.push_back(to_field(drawn));
-        }
+    std::vector<std::size_t> local = columns_of(own_.kept, link);
+    for (int kind = 0; joint.antecedent >= 0 && kind <= static_cast<int>(parameter_kind::M); ++kind) {
+        local.push_back(parameters_.index(joint.antecedent, static_cast<parameter_kind>(kind)));
     }
-    return series;
+    const std::size_t first_target = local.size();
+    local.insert(local.end(), targets.begin(), targets.end());
+
+    std::vector<exact_selection> eliminations;
+    std::vector<std::vector<prime_field>> constants;
+    for (std::size_t s = 0; s < draws; ++s) {
+        field_rows rows;
+        for (std::size_t v = 0; v < variants; ++v) {
+            const field_rows part = restrict_to(samples.rows[s * variants + v], local);
+            rows.insert(rows.end(), part.begin(), part.end());
+        }
+        const exact_selection elimination = select_exactly(std::move(rows), positions(local.size()));
+        const bool depends = !elimination.kept.empty() && elimination.kept.back() < first_target;
+        if (!depends ||
+            (s > 0 && (elimination.kept != eliminations[0].kept || elimination.dropped != eliminations[0].dropped))) {
+            return {};
+        }
+        eliminations.push_back(elimination);
+        constants.push_back(samples.constants[s * variants]);
+    }
+    return fit_coefficients(eliminations, constants, monomials, local, first_target);
 }
 
-std::optional<constant_polynomial> regrouping::formula(elimination_series& series, std::size_t k, std::size_t d) const {
-    if (series.samples.empty()) {
-        return std::nullopt;
+regrouping::formula_table regrouping::formulas() const {
+    sampled_regressor shared;
+    formula_table table;
+    const auto in = [](const std::vector<std::size_t>& list, std::size_t p) {
+        return std::find(list.begin(), list.end(), p) != list.end();
+    };
+    for (std::size_t link = 0; link < tree_.joints.size(); ++link) {
+        formula_table relations = relate_to_antecedent(static_cast<int>(link), 1, shared);
+        if (relations.empty()) {
+            sampled_regressor own;
+            relations = relate_to_antecedent(static_cast<int>(link), 3, own);
+        }
+        for (const auto& [dropped, combination] : relations) {
+            auto& row = table[dropped];
+            for (const auto& [p, coefficient] : combination) {
+                if (in(own_.kept, p)) {
+                    row[p] += coefficient;
+                }
+                // Of the antecedent, whose formulas are complete.
+                if (const auto inner = table.find(p); inner != table.end()) {
+                    for (const auto& [kept, factor] : inner->second) {
+                        row[kept] += coefficient * factor;
+                    }
+                }
+            }
+        }
     }
-    const std::vector<monomial>& monomials = candidates(series, dependence(series, k, d));
-    if (monomials.empty()) {
-        return std::nullopt;
-    }
-    std::vector<prime_field> values;
-    for (const exact_selection& sample : series.samples) {
-        values.push_back(sample.beta[k][d]);
-    }
-    const auto residues = fit(monomials, series.constants, values);
-    const auto found = residues ? polynomial(monomials, *residues) : std::nullopt;
-    const bool holds = found && prime_field(found->value(own_constants_)) == own_.beta[k][d];
-    return holds ? found : std::nullopt;
+    return table;
 }
 
-regrouped_column regrouping::column(elimination_series& series, std::size_t k, std::size_t d, double by_qr) const {
-    regrouped_column result{own_.kept[k], own_.dropped[d], {}, true, 0};
-    if (const auto symbolic = formula(series, k, d)) {
-        result.coefficient = *symbolic;
-    } else {
-        // A short fraction if that is what the QR sees too, otherwise the QR's own number.
-        bool found = true;
-        const rational fraction = reconstruct(own_.beta[k][d], found);
-        result.is_exact = found && std::abs(to_double(fraction) - by_qr) < 1e-9 * std::max(1.0, std::abs(by_qr));
-        const rational value = result.is_exact ? fraction : cln::rational(cln::cl_DF(by_qr));
-        result.coefficient.terms.emplace_back(value, monomial{});
+regrouped_column regrouping::column(const formula_table& table, std::size_t k, std::size_t d, double by_qr) const {
+    regrouped_column result;
+    result.kept = own_.kept[k];
+    result.dropped = own_.dropped[d];
+    const auto row = table.find(result.dropped);
+    if (row != table.end()) {
+        const auto entry = row->second.find(result.kept);
+        const constant_polynomial found = entry == row->second.end() ? constant_polynomial() : entry->second;
+        result.exact = found.value(own_constants_);
+        if (prime_field(result.exact) == own_.beta[k][d]) {
+            result.coefficient = found;
+            return result;
+        }
     }
-    result.exact = result.coefficient.value(own_constants_);
+    // A short fraction if that is what the QR sees too, otherwise the QR's own number.
+    bool found = true;
+    const rational fraction = reconstruct(own_.beta[k][d], found);
+    result.is_exact = found && std::abs(to_double(fraction) - by_qr) < 1e-9 * std::max(1.0, std::abs(by_qr));
+    result.exact = result.is_exact ? fraction : cln::rational(cln::cl_DF(by_qr));
+    result.coefficient = constant_polynomial(result.exact);
     return result;
 }
 
 std::vector<regrouped_column> regrouping::columns(const Eigen::MatrixXd& beta) const {
-    elimination_series series = eliminate_at_random_constants();
+    const formula_table table = formulas();
     std::vector<regrouped_column> result;
-    for_each_coefficient([&](std::size_t k, std::size_t d) {
-        const double by_qr = beta(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(d));
-        result.push_back(column(series, k, d, by_qr));
-    });
-    return result;
-}
-
-void regrouping::for_each_coefficient(const std::function<void(std::size_t, std::size_t)>& visit) const {
     for (std::size_t k = 0; k < own_.kept.size(); ++k) {
         for (std::size_t d = 0; d < own_.dropped.size(); ++d) {
             if (!own_.beta[k][d].is_zero()) {
-                visit(k, d);
+                const double by_qr = beta(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(d));
+                result.push_back(column(table, k, d, by_qr));
             }
         }
     }
+    return result;
 }
 
 std::vector<std::vector<rational>> regrouping::exact_rows(int point_number) const {

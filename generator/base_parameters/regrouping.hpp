@@ -1,8 +1,6 @@
 #pragma once
 
-#include <functional>
 #include <map>
-#include <optional>
 #include <vector>
 
 #include "base_parameters/column_selection.hpp"
@@ -24,53 +22,59 @@ struct regrouped_column {
 /// in the robot's constants.
 class regrouping {
   public:
-    regrouping(const standard_regressor& W, const kinematic_tree& tree, const std::vector<std::size_t>& preference);
+    regrouping(const standard_regressor& W, const kinematic_tree& tree, const standard_parameters& parameters,
+               const std::vector<std::size_t>& preference);
 
     /// Decision at the robot's own constants.
     const exact_selection& selection() const { return own_; }
     /// Number of rational points.
     int points() const { return points_; }
 
-    /// All coefficients as polynomials in the constants: the elimination repeated at random constants shows on which of
-    /// them a coefficient depends, and a linear system gives its monomials. Where the rank at the robot's own constants
-    /// is a special case, or a coefficient is no such polynomial, it is a number.
-    /// `beta`: the same coefficients by QR, kept x dropped in the order of selection().
+    /// All coefficients as polynomials in the constants, link by link as in the closed-form rules (Gautier and Khalil
+    /// 1990): a dropped column of a link is a combination of the link's kept ones and of its antecedent's, with
+    /// coefficients in the constants of this one joint, which eliminations at random constants determine. Inserted into
+    /// each other from the base outward they give the coefficients in the kept columns. Where a column is no such
+    /// combination its coefficients are numbers. `beta`: the same coefficients by QR, kept x dropped in the order of
+    /// selection().
     std::vector<regrouped_column> columns(const Eigen::MatrixXd& beta) const;
 
     /// Inserts the coefficients at every rational point, in CLN rationals. Throws rank_disagreement where a dropped
     /// column is not this combination of the kept ones. Returns the number of dropped columns left out because a
-    /// coefficient is no exact number (oblique axes with many constants): for these the elimination modulo a prime is
-    /// the evidence.
+    /// coefficient is no exact number: for these the elimination modulo a prime is the evidence.
     int prove(const std::vector<regrouped_column>& columns) const;
 
   private:
-    /// The elimination repeated at random constants: `samples` at all of them drawn anew, `changed` with one group
-    /// changed.
-    struct elimination_series {
-        std::vector<std::vector<std::size_t>> groups;  ///< one length, or cosine and sine of one angle
-        std::vector<exact_selection> samples, changed;
-        std::vector<std::vector<prime_field>> constants;  ///< of `samples`
-        std::map<std::vector<std::size_t>, std::vector<monomial>> candidates;
+    using field_rows = std::vector<std::vector<prime_field>>;
+    /// dropped -> kept -> coefficient
+    using formula_table = std::map<std::size_t, std::map<std::size_t, constant_polynomial>>;
+    /// The standard regressor modulo a prime, at several random constants.
+    struct sampled_regressor {
+        std::vector<std::vector<prime_field>> constants;
+        std::vector<field_rows> rows;
     };
 
     /// Random constants, cosine and sine of one angle on the circle; `seed` 0 gives the robot's own.
     std::vector<rational> draw_constants(std::uint64_t seed) const;
-    std::vector<std::vector<std::size_t>> constant_groups() const;
-    exact_selection select_at(const std::vector<rational>& constants) const;
+    field_rows rows_at(const std::vector<rational>& constants) const;
     std::vector<std::vector<rational>> exact_rows(int point_number) const;
-    /// Calls visit(k, d) for every coefficient that is not zero.
-    void for_each_coefficient(const std::function<void(std::size_t, std::size_t)>& visit) const;
 
-    /// Empty where the rank at the robot's own constants is a special case.
-    elimination_series eliminate_at_random_constants() const;
-    /// Groups of constants that coefficient (k, d) depends on.
-    std::vector<std::size_t> dependence(const elimination_series& series, std::size_t k, std::size_t d) const;
-    const std::vector<monomial>& candidates(elimination_series& series, const std::vector<std::size_t>& set) const;
-    std::optional<constant_polynomial> formula(elimination_series& series, std::size_t k, std::size_t d) const;
-    regrouped_column column(elimination_series& series, std::size_t k, std::size_t d, double by_qr) const;
+    /// Groups of the constants that enter one joint's transform: a length, or cosine and sine of an angle.
+    std::vector<std::vector<std::size_t>> constants_of(const kinematic_joint& joint) const;
+    std::vector<std::size_t> columns_of(const std::vector<std::size_t>& among, int link) const;
+    /// Constants and rows number `s`: the joint's own constants are those of draw s, the others of draw s + variant *
+    /// 1000.
+    void sample(sampled_regressor& samples, std::size_t s, const std::vector<std::vector<std::size_t>>& own_groups,
+                std::size_t variant) const;
+    /// Dropped columns of one link in its kept ones and its antecedent's columns; empty where that is impossible. Each
+    /// elimination takes the rows of so many draws of the other joints' constants: columns of the antecedent may depend
+    /// on each other for one geometry of the inner links, but not for all.
+    formula_table relate_to_antecedent(int link, std::size_t variants, sampled_regressor& samples) const;
+    formula_table formulas() const;
+    regrouped_column column(const formula_table& table, std::size_t k, std::size_t d, double by_qr) const;
 
     const standard_regressor& W_;
     const kinematic_tree& tree_;
+    const standard_parameters& parameters_;
     const std::vector<std::size_t>& preference_;
     int points_ = 0;
     std::vector<rational> own_constants_;

@@ -156,9 +156,10 @@ TEST(BaseParameters, DensoHasThePublishedNamesInThePublishedOrder) {
     EXPECT_EQ(names_of(generator::find_base(robot_file("denso_vp6242g"), templates_folder)), published);
 }
 
-TEST_P(Regrouping, FollowsTheClosedRulesOfGautierAndKhalil) {
-    const test_model model(robot_file(GetParam()));
-    const mdh_table table = mdh_table_of(generator::read_robot(robot_file(GetParam())));
+/// regroup() of the generated code against the closed rules, at random standard parameters.
+void expect_closed_rules(const std::string& file) {
+    const test_model model(file);
+    const mdh_table table = mdh_table_of(generator::read_robot(file));
     std::mt19937_64 random(1990);
     for (int k = 0; k < 20; ++k) {
         value_table standard;
@@ -176,6 +177,29 @@ TEST_P(Regrouping, FollowsTheClosedRulesOfGautierAndKhalil) {
             EXPECT_NEAR(chi[static_cast<Eigen::Index>(i)], rule->second, 1e-13) << names[i];
         }
     }
+}
+
+TEST_P(Regrouping, FollowsTheClosedRulesOfGautierAndKhalil) {
+    expect_closed_rules(robot_file(GetParam()));
+}
+
+TEST(RegroupingOfObliqueAxes, FollowsTheClosedRulesByFormulasProvenInRationals) {
+    const temporary_folder folder;
+    const std::string file = folder.write("oblique.yaml",
+                                          "name: oblique\n"
+                                          "constants: {d: 0.3, r: 0.1, D: 0.2}\n"
+                                          "joints:\n"
+                                          "  - {name: j1, theta: q}\n"
+                                          "  - {name: j2, alpha: pi/2, d: d, theta: q, r: r}\n"
+                                          "  - {name: j3, alpha: 0.8, d: D, theta: q, r: 0.35}\n"
+                                          "  - {name: j4, alpha: -1.1, d: 0.15, theta: q + 0.3, r: r}\n");
+    const generator::base_report base = generator::find_base(file, templates_folder);
+    EXPECT_EQ(base.modulo_prime_only, 0);
+    const auto mx2 = std::find_if(base.parameters.begin(), base.parameters.end(),
+                                  [](const generator::parameter_context& p) { return p.name == "MX2R"; });
+    ASSERT_NE(mx2, base.parameters.end());
+    EXPECT_EQ(mx2->regroups, "MX2 + D*M3 + D*M4");
+    expect_closed_rules(file);
 }
 
 INSTANTIATE_TEST_SUITE_P(RevoluteRobots, Regrouping,
