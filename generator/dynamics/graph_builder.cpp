@@ -122,7 +122,7 @@ class graph_builder {
     }
 
     signed_node build_sum(const ex& e) {
-        signed_node sum = graph_.constant(0);
+        signed_node sum = graph_.zero();
         for (const keyed& operand : sorted(e)) {
             const signed_node term = build(operand.value);
             sum = graph_.add(sum, term);
@@ -131,8 +131,8 @@ class graph_builder {
     }
 
     signed_node build_product(const ex& e) {
-        signed_node product = graph_.constant(1);
-        signed_node divisor = graph_.constant(1);
+        signed_node product = graph_.one();
+        signed_node divisor = graph_.one();
         for (const keyed& operand : sorted(e)) {
             if (is_reciprocal(operand.value)) {
                 const signed_node factor = build_power(operand.value.op(0), -operand.value.op(1));

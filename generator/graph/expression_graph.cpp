@@ -53,7 +53,7 @@ expression_graph::expression_graph() {
 signed_node expression_graph::constant(const rational& value) {
     const bool negative = cln::minusp(value);
     const rational magnitude = cln::abs(value);
-    const auto [at, fresh] = constants_.try_emplace(to_fraction(magnitude), static_cast<int>(nodes_.size()));
+    const auto [at, fresh] = constants_.try_emplace(magnitude, static_cast<int>(nodes_.size()));
     if (fresh) {
         graph_node node;
         node.kind = operation::constant;

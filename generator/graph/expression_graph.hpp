@@ -79,6 +79,8 @@ class expression_graph {
     expression_graph();
 
     signed_node constant(const rational& value);
+    signed_node zero() const { return {zero_, false}; }
+    signed_node one() const { return {one_, false}; }
     /// Declares a leaf; the same name and role always give the same leaf.
     signed_node symbol(const graph_symbol& leaf);
 
@@ -124,7 +126,10 @@ class expression_graph {
     std::vector<graph_symbol> symbols_;
     std::vector<graph_output> outputs_;
     std::unordered_map<key, int, key_hash> known_;
-    std::map<std::string, int> constants_;
+    struct smaller {
+        bool operator()(const rational& a, const rational& b) const { return cln::compare(a, b) < 0; }
+    };
+    std::map<rational, int, smaller> constants_;
     std::map<std::pair<symbol_role, std::string>, int> leaves_;
     int zero_ = 0;
     int one_ = 0;
