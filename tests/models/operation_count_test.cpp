@@ -24,7 +24,7 @@ struct bounds {
 struct expected_counts {
     const char* robot;
     bounds reached;
-    bounds study;  ///< of a study measured side by side with OpenSYMORO, which needs more in every case (ANCHORS.md)
+    bounds study;  ///< of a study measured side by side with a published generator, which needs more in every case
 };
 
 std::ostream& operator<<(std::ostream& stream, const expected_counts& counts) {
