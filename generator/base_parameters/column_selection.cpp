@@ -32,9 +32,11 @@ column_selection select_by_qr(const Eigen::MatrixXd& W, const std::vector<std::s
             result.largest_dropped = std::max(result.largest_dropped, rest);
         }
     }
-    const Eigen::MatrixXd kept = W(Eigen::all, result.kept);
-    const Eigen::MatrixXd dropped = W(Eigen::all, result.dropped);
-    result.beta = kept.householderQr().solve(dropped);
+    if (!result.kept.empty() && !result.dropped.empty()) {
+        const Eigen::MatrixXd kept = W(Eigen::all, result.kept);
+        const Eigen::MatrixXd dropped = W(Eigen::all, result.dropped);
+        result.beta = kept.householderQr().solve(dropped);
+    }
     return result;
 }
 
