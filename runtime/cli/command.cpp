@@ -19,7 +19,7 @@ bool prints_text(const std::string& json_file) {
     return json_file != "-";
 }
 
-void write_json(const std::string& file, json content) {
+void write_json(const std::string& file, const json& content) {
     if (file.empty()) {
         return;
     }

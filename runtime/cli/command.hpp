@@ -27,7 +27,7 @@ void add_json_option(CLI::App& command, std::string& file);
 
 /// Writes `content` to the file of --json, by renaming a temporary; nothing where `file` is empty. "idim_version" is
 /// put in front. Throws input_error where it cannot be written.
-void write_json(const std::string& file, json content);
+void write_json(const std::string& file, const json& content);
 
 /// True where the text for people should be printed: not when the JSON goes to standard output.
 bool prints_text(const std::string& json_file);
