@@ -58,8 +58,8 @@ struct base_parameter_set {
 /// revolute and MX MY MZ M of prismatic links from the last link to the first, then the effects, then the rest. The
 /// decision is proven in exact arithmetic at rational points: independence of the kept columns modulo a prime (a lower
 /// bound of the rank over the rationals), dependence of the dropped ones by inserting the regrouping formulas in CLN
-/// rationals (an upper bound). The formulas come from the same elimination at random values of the constants. Throws
-/// rank_disagreement where QR and exact rank differ.
+/// rationals (an upper bound; but see rank_evidence::modulo_prime_only). The formulas come link by link, see
+/// regrouping. Throws rank_disagreement where QR and exact rank differ.
 base_parameter_set find_base_parameters(const kinematic_tree& tree, const standard_parameters& parameters);
 
 }  // namespace idim::generator
