@@ -9,8 +9,9 @@
 #include "mass_matrix.hpp"
 #include "model.hpp"
 #include "regressor.hpp"
+#include "regroup.hpp"
 
-static_assert(IDIM_MODEL_ABI == 1, "this model was generated for another version of the runtime: regenerate it");
+static_assert(IDIM_MODEL_ABI == 2, "this model was generated for another version of the runtime: regenerate it");
 
 namespace model = idim_models::denso_vp6242g;
 
@@ -53,12 +54,17 @@ int forward_dynamics(const double* q, const double* qd, const double* tau, doubl
     return 0;
 }
 
+void regroup(const double* standard, double* chi) {
+    model::regroup(standard, chi);
+}
+
 constexpr idim_model_interface interface = {
     IDIM_MODEL_ABI,
     model::name,
     model::input_hash,
     model::dof,
     model::base_parameters,
+    model::standard_parameters,
     0,
     0,
     model::joint_names.data(),
@@ -66,6 +72,7 @@ constexpr idim_model_interface interface = {
     model::base_parameter_names.data(),
     model::base_parameter_units.data(),
     model::regroupings.data(),
+    model::standard_parameter_names.data(),
     drive_gain.data(),
     velocity_limit.data(),
     regressor,
@@ -74,6 +81,7 @@ constexpr idim_model_interface interface = {
     bias,
     gravity,
     forward_dynamics,
+    regroup,
 };
 
 }  // namespace

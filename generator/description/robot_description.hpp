@@ -31,6 +31,7 @@ struct joint_description {
     joint_type type = joint_type::revolute;
     int antecedent = -1;  ///< index in robot_description::joints, always smaller than the joint's own; -1 is the base
     expression_text gamma, b, alpha, d, theta, r;
+    bool massless = false;  ///< its link has no inertia: no inertial parameters
     joint_limits limits;
     std::optional<double> drive_gain;  ///< [N*m or N] per unit of v
     input_location where;

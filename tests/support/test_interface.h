@@ -7,9 +7,6 @@
 
 struct idim_test_interface {
     struct idim_model_interface model; /* first, so that a pointer to it is one to the whole */
-    int n_standard;
-    const char* const* standard_names; /* [n_standard] */
-    void (*regroup)(const double* standard, double* chi);
     /* the same template over float; null where the model needs time or temperatures */
     void (*inverse_dynamics_float)(const float* q, const float* qd, const float* qdd, const float* chi, float* tau);
 };

@@ -14,17 +14,13 @@ using row_major = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::R
 /// Compiled in the place of model_interface.cpp, which it includes under another name.
 const char* const interface_source = R"(#define IDIM_MODEL_SYMBOL generated_model
 #include "model_interface.inc"
-#include "regroup.hpp"
 #include "test_interface.h"
 
 namespace {
 
-void regroup(const double* standard, double* chi) { model::regroup(standard, chi); }
-
 FLOAT_FUNCTION
 
-const idim_test_interface extended = {interface, model::standard_parameters, model::standard_parameter_names.data(), regroup,
-                                      FLOAT_POINTER};
+const idim_test_interface extended = {interface, FLOAT_POINTER};
 
 }  // namespace
 
@@ -69,7 +65,7 @@ const idim_test_interface& test_model::extended() const {
 }
 
 std::vector<std::string> test_model::standard_names() const {
-    return {extended().standard_names, extended().standard_names + extended().n_standard};
+    return {interface().standard_names, interface().standard_names + interface().n_standard};
 }
 
 std::vector<std::string> test_model::parameter_names() const {
@@ -83,7 +79,7 @@ Eigen::VectorXd test_model::regroup(const value_table& standard) const {
         values.push_back(known == standard.end() ? 0.0 : known->second);
     }
     Eigen::VectorXd chi(n_base());
-    extended().regroup(values.data(), chi.data());
+    interface().regroup(values.data(), chi.data());
     return chi;
 }
 

@@ -4,7 +4,7 @@
 #ifndef IDIM_MODEL_INTERFACE_H
 #define IDIM_MODEL_INTERFACE_H
 
-#define IDIM_MODEL_ABI 1
+#define IDIM_MODEL_ABI 2
 
 #ifdef __cplusplus
 extern "C" {
@@ -16,6 +16,7 @@ struct idim_model_interface {
     const char* input_hash;             /* hash of description, effects and templates */
     int dof;                            /* n, number of driven joints */
     int n_base;                         /* b, number of base parameters, effects included */
+    int n_standard;                     /* s, number of standard parameters, effects included */
     int needs_time;                     /* 1 if an effect uses t: then `t` below is read */
     int needs_temperature;              /* 1 if an effect uses temp: then `temp` below is read */
     const char* const* joint_names;     /* [n] */
@@ -23,6 +24,7 @@ struct idim_model_interface {
     const char* const* parameter_names; /* [b] such as ZZ1R */
     const char* const* parameter_units; /* [b] such as kg*m^2 */
     const char* const* regroupings;     /* [b] such as ZZ1 + Ia1 + L^2*M2 */
+    const char* const* standard_names;  /* [s] such as ZZ1 */
     const double* drive_gain;           /* [n] N*m or N per unit of v; 0 where not given */
     const double* velocity_limit;       /* [n] rad/s or m/s; 0 where not given */
     /* W [n x b]: tau = W chi; q qd qdd temp [n], t scalar */
@@ -39,6 +41,8 @@ struct idim_model_interface {
     /* qdd [n] = M(q)^-1 (tau - N); returns 0, or j in 1..n where the factorisation met a pivot that is not positive */
     int (*forward_dynamics)(const double* q, const double* qd, const double* tau, double t, const double* temp,
                             const double* chi, double* qdd);
+    /* chi [b] of a robot whose standard parameters [s] are known */
+    void (*regroup)(const double* standard, double* chi);
 };
 
 /* The one symbol a loaded model exports. */
