@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <nlohmann/json.hpp>
 
-#include "backend/model_context.hpp"
+#include "backend/model_manifest.hpp"
 #include "emit/content_hash.hpp"
+#include "emit/manifest_file.hpp"
 
 namespace idim::generator {
 
@@ -64,23 +64,14 @@ std::string hash_inputs(const robot_model& model) {
     return content_hash(text);
 }
 
-rendered_file manifest(const generated_model& model) {
-    nlohmann::ordered_json json;
-    json["generator"] = std::string("idim ") + version();
-    json["robot"] = model.robot;
-    json["input_hash"] = model.input_hash;
-    json["files"] = nlohmann::ordered_json::array();
-    for (const rendered_file& file : model.files) {
-        json["files"].push_back(file.name);
+/// The manifest of what was rendered, as a file beside it.
+rendered_file manifest_of(const robot_model& model, const template_context& context,
+                          const std::vector<rendered_file>& files) {
+    manifest content = describe(model, context);
+    for (const rendered_file& file : files) {
+        content.files.push_back(file.name);
     }
-    const auto add = [&json](const char* name, const operation_count& count) {
-        json["operations"][name] = {{"mul", count.mul}, {"add", count.add}, {"div", count.div}};
-    };
-    add("inverse_dynamics", model.operations.inverse_dynamics);
-    add("regressor", model.operations.regressor);
-    add("mass_matrix", model.operations.mass_matrix);
-    add("forward_dynamics", model.operations.forward_dynamics);
-    return {"manifest.json", json.dump(2) + "\n"};
+    return {manifest_name, to_json_text(content)};
 }
 
 operation_table table(const model_operations& counts) {
@@ -109,7 +100,7 @@ generated_model generate(const std::string& robot_file, const std::string& templ
     result.joints = context.joints;
     result.operations = table(counts);
     result.files = render_cpp(context, templates + "/cpp");
-    result.files.push_back(manifest(result));
+    result.files.push_back(manifest_of(model, context, result.files));
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     result.rigid_operations = table(count_rigid(load(robot_file, templates, true)));
     return result;

@@ -157,6 +157,7 @@ function_context derive_regrouping(const robot_model& model) {
             const signed_node scaled = graph.multiply(graph.constant(term.exact), other);
             sum = graph.add(sum, scaled);
         }
+        graph.name(sum, base.name + (sum.negative ? "n" : ""));
         graph.output("chi", static_cast<int>(k), sum);
     }
     function_plan plan{
@@ -193,17 +194,29 @@ std::vector<std::string> effect_list(const robot_description& robot) {
     return result;
 }
 
-std::vector<std::string> constant_list(const kinematic_tree& tree) {
+std::vector<std::string> constant_list(const robot_model& model) {
     std::vector<std::string> result;
-    for (const kinematic_constant& constant : tree.constants) {
-        if (constant.is_named && constant.angle < 0) {
-            result.push_back(fmt::format("{} = {}", constant.text, constant.value.to_double()));
-        }
+    for (const auto& [name, value] : named_constants(model)) {
+        result.push_back(fmt::format("{} = {}", name, value));
     }
     return result;
 }
 
 }  // namespace
+
+std::vector<std::pair<std::string, double>> named_constants(const robot_model& model) {
+    std::map<std::string, double> values;  // a constant that is zero is no symbol of the tree
+    for (const kinematic_constant& constant : model.tree.constants) {
+        if (constant.is_named && constant.angle < 0) {
+            values[constant.text] = constant.value.to_double();
+        }
+    }
+    std::vector<std::pair<std::string, double>> result;
+    for (const constant_description& constant : model.description.constants) {
+        result.emplace_back(constant.name, values[constant.name]);
+    }
+    return result;
+}
 
 template_context build_context(const robot_model& model, const std::string& version, const std::string& input_hash,
                                model_operations& operations) {
@@ -212,7 +225,7 @@ template_context build_context(const robot_model& model, const std::string& vers
     context.version = version;
     context.robot_file = std::filesystem::path(model.description.file).filename().string();
     context.input_hash = input_hash;
-    context.constants = constant_list(model.tree);
+    context.constants = constant_list(model);
     context.effects = effect_list(model.description);
     context.joints = joints(model);
     for (const base_parameter& base : model.base.parameters) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "backend/template_context.hpp"
 #include "base_parameters/base_parameter_set.hpp"
@@ -22,6 +24,9 @@ struct robot_model {
     standard_parameters parameters;
     base_parameter_set base;
 };
+
+/// The constants a description names, in its order, with their values.
+std::vector<std::pair<std::string, double>> named_constants(const robot_model& model);
 
 /// Derives all models of a robot and lays them out for the templates. `operations` receives the counts.
 template_context build_context(const robot_model& model, const std::string& version, const std::string& input_hash,
