@@ -25,7 +25,8 @@ void write_json(const std::string& file, const json& content) {
     }
     json ordered = {{"idim_version", IDIM_VERSION}};
     ordered.update(content);
-    const std::string text = ordered.dump(2) + "\n";
+    // A file that is quoted may hold bytes that are no UTF-8; JSON may not.
+    const std::string text = ordered.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
     if (file == "-") {
         fmt::print("{}", text);
         return;

@@ -3,6 +3,7 @@
 #include "command.hpp"
 #include "emit/model_folder.hpp"
 #include "generator.hpp"
+#include "idim/unified_diff.hpp"
 #include "resources.hpp"
 
 namespace idim::cli {
@@ -56,9 +57,24 @@ void print(const generator::generated_model& model) {
 }
 
 int check_folder(const generator::generated_model& model, const generate_options& options) {
-    const std::vector<std::string> differences = generator::compare_model(model.files, options.folder);
-    for (const std::string& line : differences) {
-        fmt::print("{}/{}\n", options.folder, line);
+    const auto differences = generator::compare_model(model.files, options.folder);
+    std::vector<file_change> changes;
+    json files = json::array();
+    for (const generator::folder_difference& difference : differences) {
+        changes.push_back({difference.name, difference.present, difference.wanted});
+        files.push_back({{"file", difference.name}, {"state", difference.state()}});
+    }
+    const std::string diff = unified_diff(changes);
+    write_json(options.json_file, {{"robot", model.robot},
+                                   {"folder", options.folder},
+                                   {"current", differences.empty()},
+                                   {"differences", files},
+                                   {"diff", diff}});
+    if (prints_text(options.json_file)) {
+        for (const generator::folder_difference& difference : differences) {
+            fmt::print("{}/{}: {}\n", options.folder, difference.name, difference.state());
+        }
+        fmt::print("{}", diff);
     }
     return differences.empty() ? exit_done : exit_check_said_no;
 }
@@ -84,7 +100,8 @@ void add_generate_command(CLI::App& app, action& chosen) {
     CLI::App* command = app.add_subcommand("generate", "C++ code of the robot's models");
     command->add_option("robot", options->robot, "robot description (.yaml)")->required();
     command->add_option("-o,--output", options->folder, "folder for the code")->required();
-    command->add_flag("--check", options->check, "write nothing; exit 1 where the folder is not what would be written");
+    command->add_flag("--check", options->check,
+                      "write nothing; exit 1 and a diff where the folder is not what would be written");
     add_json_option(*command, options->json_file);
     command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
