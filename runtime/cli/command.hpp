@@ -18,6 +18,7 @@ using action = std::function<int()>;
 /// Adds one command to the application; `chosen` receives its action when the user calls it.
 void add_base_command(CLI::App& app, action& chosen);
 void add_generate_command(CLI::App& app, action& chosen);
+void add_diff_command(CLI::App& app, action& chosen);
 void add_identify_command(CLI::App& app, action& chosen);
 void add_validate_command(CLI::App& app, action& chosen);
 void add_simulate_command(CLI::App& app, action& chosen);
