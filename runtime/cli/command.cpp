@@ -31,16 +31,21 @@ void write_json(const std::string& file, const json& content) {
         fmt::print("{}", text);
         return;
     }
-    const std::string temporary = file + ".tmp";
-    std::ofstream out(temporary, std::ios::binary);
+    // A device or pipe is written into: a file renamed over /dev/null would take its place.
+    std::error_code error;
+    const bool is_special = std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error);
+    const std::string written = is_special ? file : file + ".tmp";
+    std::ofstream out(written, std::ios::binary);
     out << text;
     out.close();
-    std::error_code error;
-    if (out) {
-        std::filesystem::rename(temporary, file, error);
+    error.clear();
+    if (out && !is_special) {
+        std::filesystem::rename(written, file, error);
     }
     if (!out || error) {
-        std::filesystem::remove(temporary, error);
+        if (!is_special) {
+            std::filesystem::remove(written, error);
+        }
         throw input_error({file, 0, "--json"}, "cannot be written");
     }
 }

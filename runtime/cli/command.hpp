@@ -26,7 +26,8 @@ void add_simulate_command(CLI::App& app, action& chosen);
 /// Adds --json FILE (`-` for standard output).
 void add_json_option(CLI::App& command, std::string& file);
 
-/// Writes `content` to the file of --json, by renaming a temporary; nothing where `file` is empty. "idim_version" is
+/// Writes `content` to the file of --json, by renaming a temporary (into a device or pipe); nothing where `file` is
+/// empty. "idim_version" is
 /// put in front. Throws input_error where it cannot be written.
 void write_json(const std::string& file, const json& content);
 
