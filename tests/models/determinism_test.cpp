@@ -72,21 +72,6 @@ TEST_P(GeneratedFolder, IsWhatTheGeneratorWritesNow) {
     EXPECT_EQ(difference(files_in(out), files_in(folder)), "");
 }
 
-INSTANTIATE_TEST_SUITE_P(Robots, GeneratedFolder, testing::Values("scara", "emps", "denso_vp6242g"));
-
-TEST(GenerateCheck, SaysWhichFilesDifferAndWritesNothing) {
-    const temporary_folder folder;
-    const std::string out = (folder.path() / "model").string();
-    ASSERT_EQ(run_idim({"generate", robot_file("emps"), "-o", out}).status, 0);
-    folder.write("model/bias.hpp", "edited by hand\n");
-    std::filesystem::remove(folder.path() / "model/gravity.hpp");
-    const auto before = files_in(out);
-    const command_result check = run_idim({"generate", robot_file("emps"), "-o", out, "--check"});
-    EXPECT_EQ(check.status, 1);
-    EXPECT_NE(check.out.find("bias.hpp"), std::string::npos) << check.out;
-    EXPECT_NE(check.out.find("gravity.hpp"), std::string::npos) << check.out;
-    EXPECT_EQ(check.out.find("regressor.hpp"), std::string::npos) << check.out;
-    EXPECT_EQ(difference(before, files_in(out)), "");
-}
+INSTANTIATE_TEST_SUITE_P(Robots, GeneratedFolder, testing::ValuesIn(folders_in("generated")));
 
 }  // namespace idim::test
