@@ -5,12 +5,13 @@
 #include <cmath>
 
 #include "functions.hpp"
+#include "model.hpp"
 
 namespace idim_models::denso_vp6242g {
 
 /// Torque that holds the rigid links at rest.
 ///   q [6] joint positions [rad or m]
-///   chi [48] base parameters, in the order of base_parameter_names
+///   chi [base_parameters] base parameters, in the order of base_parameter_names
 ///   G [6] joint torques or forces [N*m or N]
 /// Scalar: float, double or any type with these operations. No heap, no exceptions.
 template <class Scalar>
@@ -18,16 +19,16 @@ void gravity(const Scalar* q,
              const Scalar* chi,
              Scalar* G) {
     using std::cos, std::sin;
-    const Scalar& MX2R = chi[8];
-    const Scalar& MY2 = chi[9];
-    const Scalar& MX3R = chi[17];
-    const Scalar& MY3R = chi[18];
-    const Scalar& MX4 = chi[26];
-    const Scalar& MY4R = chi[27];
-    const Scalar& MX5 = chi[35];
-    const Scalar& MY5R = chi[36];
-    const Scalar& MX6 = chi[44];
-    const Scalar& MY6 = chi[45];
+    const Scalar& MX2R = chi[base_index::MX2R];
+    const Scalar& MY2 = chi[base_index::MY2];
+    const Scalar& MX3R = chi[base_index::MX3R];
+    const Scalar& MY3R = chi[base_index::MY3R];
+    const Scalar& MX4 = chi[base_index::MX4];
+    const Scalar& MY4R = chi[base_index::MY4R];
+    const Scalar& MX5 = chi[base_index::MX5];
+    const Scalar& MY5R = chi[base_index::MY5R];
+    const Scalar& MX6 = chi[base_index::MX6];
+    const Scalar& MY6 = chi[base_index::MY6];
     const Scalar C2n = sin(q[1]);
     const Scalar S2 = cos(q[1]);
     const Scalar C3 = sin(q[2]);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "functions.hpp"
+#include "model.hpp"
 
 namespace idim_models::denso_vp6242g {
 
@@ -12,7 +13,7 @@ namespace idim_models::denso_vp6242g {
 ///   q [6] joint positions [rad or m]
 ///   qd [6] joint velocities [rad/s or m/s]
 ///   qdd [6] joint accelerations [rad/s^2 or m/s^2]
-///   chi [48] base parameters, in the order of base_parameter_names
+///   chi [base_parameters] base parameters, in the order of base_parameter_names
 ///   tau [6] joint torques or forces, joint side [N*m or N]
 /// Scalar: float, double or any type with these operations. No heap, no exceptions.
 template <class Scalar>
@@ -22,54 +23,54 @@ void inverse_dynamics(const Scalar* q,
                       const Scalar* chi,
                       Scalar* tau) {
     using std::cos, std::sin;
-    const Scalar& ZZ1R = chi[0];
-    const Scalar& Fv1 = chi[1];
-    const Scalar& Fc1 = chi[2];
-    const Scalar& XX2R = chi[3];
-    const Scalar& XY2 = chi[4];
-    const Scalar& XZ2R = chi[5];
-    const Scalar& YZ2 = chi[6];
-    const Scalar& ZZ2R = chi[7];
-    const Scalar& MX2R = chi[8];
-    const Scalar& MY2 = chi[9];
-    const Scalar& Fv2 = chi[10];
-    const Scalar& Fc2 = chi[11];
-    const Scalar& XX3R = chi[12];
-    const Scalar& XY3R = chi[13];
-    const Scalar& XZ3 = chi[14];
-    const Scalar& YZ3 = chi[15];
-    const Scalar& ZZ3R = chi[16];
-    const Scalar& MX3R = chi[17];
-    const Scalar& MY3R = chi[18];
-    const Scalar& Fv3 = chi[19];
-    const Scalar& Fc3 = chi[20];
-    const Scalar& XX4R = chi[21];
-    const Scalar& XY4 = chi[22];
-    const Scalar& XZ4 = chi[23];
-    const Scalar& YZ4 = chi[24];
-    const Scalar& ZZ4R = chi[25];
-    const Scalar& MX4 = chi[26];
-    const Scalar& MY4R = chi[27];
-    const Scalar& Fv4 = chi[28];
-    const Scalar& Fc4 = chi[29];
-    const Scalar& XX5R = chi[30];
-    const Scalar& XY5 = chi[31];
-    const Scalar& XZ5 = chi[32];
-    const Scalar& YZ5 = chi[33];
-    const Scalar& ZZ5R = chi[34];
-    const Scalar& MX5 = chi[35];
-    const Scalar& MY5R = chi[36];
-    const Scalar& Fv5 = chi[37];
-    const Scalar& Fc5 = chi[38];
-    const Scalar& XX6R = chi[39];
-    const Scalar& XY6 = chi[40];
-    const Scalar& XZ6 = chi[41];
-    const Scalar& YZ6 = chi[42];
-    const Scalar& ZZ6 = chi[43];
-    const Scalar& MX6 = chi[44];
-    const Scalar& MY6 = chi[45];
-    const Scalar& Fv6 = chi[46];
-    const Scalar& Fc6 = chi[47];
+    const Scalar& ZZ1R = chi[base_index::ZZ1R];
+    const Scalar& Fv1 = chi[base_index::Fv1];
+    const Scalar& Fc1 = chi[base_index::Fc1];
+    const Scalar& XX2R = chi[base_index::XX2R];
+    const Scalar& XY2 = chi[base_index::XY2];
+    const Scalar& XZ2R = chi[base_index::XZ2R];
+    const Scalar& YZ2 = chi[base_index::YZ2];
+    const Scalar& ZZ2R = chi[base_index::ZZ2R];
+    const Scalar& MX2R = chi[base_index::MX2R];
+    const Scalar& MY2 = chi[base_index::MY2];
+    const Scalar& Fv2 = chi[base_index::Fv2];
+    const Scalar& Fc2 = chi[base_index::Fc2];
+    const Scalar& XX3R = chi[base_index::XX3R];
+    const Scalar& XY3R = chi[base_index::XY3R];
+    const Scalar& XZ3 = chi[base_index::XZ3];
+    const Scalar& YZ3 = chi[base_index::YZ3];
+    const Scalar& ZZ3R = chi[base_index::ZZ3R];
+    const Scalar& MX3R = chi[base_index::MX3R];
+    const Scalar& MY3R = chi[base_index::MY3R];
+    const Scalar& Fv3 = chi[base_index::Fv3];
+    const Scalar& Fc3 = chi[base_index::Fc3];
+    const Scalar& XX4R = chi[base_index::XX4R];
+    const Scalar& XY4 = chi[base_index::XY4];
+    const Scalar& XZ4 = chi[base_index::XZ4];
+    const Scalar& YZ4 = chi[base_index::YZ4];
+    const Scalar& ZZ4R = chi[base_index::ZZ4R];
+    const Scalar& MX4 = chi[base_index::MX4];
+    const Scalar& MY4R = chi[base_index::MY4R];
+    const Scalar& Fv4 = chi[base_index::Fv4];
+    const Scalar& Fc4 = chi[base_index::Fc4];
+    const Scalar& XX5R = chi[base_index::XX5R];
+    const Scalar& XY5 = chi[base_index::XY5];
+    const Scalar& XZ5 = chi[base_index::XZ5];
+    const Scalar& YZ5 = chi[base_index::YZ5];
+    const Scalar& ZZ5R = chi[base_index::ZZ5R];
+    const Scalar& MX5 = chi[base_index::MX5];
+    const Scalar& MY5R = chi[base_index::MY5R];
+    const Scalar& Fv5 = chi[base_index::Fv5];
+    const Scalar& Fc5 = chi[base_index::Fc5];
+    const Scalar& XX6R = chi[base_index::XX6R];
+    const Scalar& XY6 = chi[base_index::XY6];
+    const Scalar& XZ6 = chi[base_index::XZ6];
+    const Scalar& YZ6 = chi[base_index::YZ6];
+    const Scalar& ZZ6 = chi[base_index::ZZ6];
+    const Scalar& MX6 = chi[base_index::MX6];
+    const Scalar& MY6 = chi[base_index::MY6];
+    const Scalar& Fv6 = chi[base_index::Fv6];
+    const Scalar& Fc6 = chi[base_index::Fc6];
     const Scalar C2n = sin(q[1]);
     const Scalar S2 = cos(q[1]);
     const Scalar C3 = sin(q[2]);

@@ -5,98 +5,108 @@
 #include <cmath>
 
 #include "functions.hpp"
+#include "model.hpp"
 
 namespace idim_models::denso_vp6242g {
 
 /// Base parameters of a robot whose standard parameters are known.
 ///   standard [standard_parameters] standard parameters, in the order of standard_parameter_names
-///   chi [48] base parameters, in the order of base_parameter_names
+///   chi [base_parameters] base parameters, in the order of base_parameter_names
 /// Scalar: float, double or any type with these operations. No heap, no exceptions.
 template <class Scalar>
 void regroup(const Scalar* standard,
              Scalar* chi) {
 
-    const Scalar ZZ1R_t1 = Scalar(0.0441) * standard[33];
-    const Scalar ZZ1R_t2 = Scalar(0.049725) * standard[45];
-    const Scalar ZZ1R_t3 = Scalar(0.049725) * standard[57];
-    const Scalar ZZ1R_t4 = Scalar(0.049725) * standard[69];
-    const Scalar ZZ1R = standard[5] + standard[15] + standard[27] + ZZ1R_t1 + ZZ1R_t2 + ZZ1R_t3 + ZZ1R_t4;
-    const Scalar XX2Rn_t1 = Scalar(0.0441) * standard[45];
-    const Scalar XX2Rn_t2 = Scalar(0.0441) * standard[57];
-    const Scalar XX2Rn_t3 = Scalar(0.0441) * standard[69];
-    const Scalar XX2Rn = ZZ1R_t1 + (standard[15] - standard[12]) + XX2Rn_t1 + XX2Rn_t2 + XX2Rn_t3;
-    const Scalar XZ2R = standard[14] - Scalar(0.21) * standard[32];
-    const Scalar ZZ2R = XX2Rn_t3 + (XX2Rn_t2 + (XX2Rn_t1 + (ZZ1R_t1 + standard[17])));
-    const Scalar MX2R_t1 = Scalar(0.21) * standard[45];
-    const Scalar MX2R_t2 = Scalar(0.21) * standard[57];
-    const Scalar MX2R_t3 = Scalar(0.21) * standard[69];
-    const Scalar MX2R = standard[18] + Scalar(0.21) * standard[33] + MX2R_t1 + MX2R_t2 + MX2R_t3;
-    const Scalar XX3Rn_t1 = Scalar(0.42) * standard[44];
-    const Scalar XX3Rn = standard[27] - standard[24] - standard[39] - XX3Rn_t1 - Scalar(0.038475) * standard[45] -
-            Scalar(0.038475) * standard[57] - Scalar(0.038475) * standard[69];
-    const Scalar XY3R = standard[25] + Scalar(0.075) * standard[44] + Scalar(0.01575) * standard[45] + Scalar(0.01575) *
-            standard[57] + Scalar(0.01575) * standard[69];
-    const Scalar ZZ3R = ZZ1R_t4 + (ZZ1R_t3 + (ZZ1R_t2 + (XX3Rn_t1 + (standard[39] + standard[29]))));
-    const Scalar MX3R = standard[30] - Scalar(0.075) * standard[45] - Scalar(0.075) * standard[57] - Scalar(0.075) *
-            standard[69];
-    const Scalar MY3R = MX2R_t3 + (MX2R_t2 + (MX2R_t1 + (standard[44] + standard[31])));
-    const Scalar XX4Rn = standard[39] - standard[36] - standard[51];
-    const Scalar ZZ4R = standard[51] + standard[41];
-    const Scalar MY4R = standard[43] - standard[56];
-    const Scalar XX5Rn_t1 = Scalar(0.14) * standard[68];
-    const Scalar XX5Rn_t2 = Scalar(0.0049) * standard[69];
-    const Scalar XX5Rn = standard[51] - standard[48] - standard[63] - XX5Rn_t1 - XX5Rn_t2;
-    const Scalar ZZ5R = XX5Rn_t2 + (XX5Rn_t1 + (standard[63] + standard[53]));
-    const Scalar MY5R = standard[68] + standard[55] + Scalar(0.07) * standard[69];
-    const Scalar XX6Rn = standard[63] - standard[60];
-    chi[0] = ZZ1R;
-    chi[1] = standard[10];
-    chi[2] = standard[11];
-    chi[3] = -XX2Rn;
-    chi[4] = standard[13];
-    chi[5] = XZ2R;
-    chi[6] = standard[16];
-    chi[7] = ZZ2R;
-    chi[8] = MX2R;
-    chi[9] = standard[19];
-    chi[10] = standard[22];
-    chi[11] = standard[23];
-    chi[12] = -XX3Rn;
-    chi[13] = XY3R;
-    chi[14] = standard[26];
-    chi[15] = standard[28];
-    chi[16] = ZZ3R;
-    chi[17] = MX3R;
-    chi[18] = MY3R;
-    chi[19] = standard[34];
-    chi[20] = standard[35];
-    chi[21] = -XX4Rn;
-    chi[22] = standard[37];
-    chi[23] = standard[38];
-    chi[24] = standard[40];
-    chi[25] = ZZ4R;
-    chi[26] = standard[42];
-    chi[27] = MY4R;
-    chi[28] = standard[46];
-    chi[29] = standard[47];
-    chi[30] = -XX5Rn;
-    chi[31] = standard[49];
-    chi[32] = standard[50];
-    chi[33] = standard[52];
-    chi[34] = ZZ5R;
-    chi[35] = standard[54];
-    chi[36] = MY5R;
-    chi[37] = standard[58];
-    chi[38] = standard[59];
-    chi[39] = -XX6Rn;
-    chi[40] = standard[61];
-    chi[41] = standard[62];
-    chi[42] = standard[64];
-    chi[43] = standard[65];
-    chi[44] = standard[66];
-    chi[45] = standard[67];
-    chi[46] = standard[70];
-    chi[47] = standard[71];
+    const Scalar ZZ1R_t1 = Scalar(0.0441) * standard[standard_index::M3];
+    const Scalar ZZ1R_t2 = Scalar(0.049725) * standard[standard_index::M4];
+    const Scalar ZZ1R_t3 = Scalar(0.049725) * standard[standard_index::M5];
+    const Scalar ZZ1R_t4 = Scalar(0.049725) * standard[standard_index::M6];
+    const Scalar ZZ1R = standard[standard_index::ZZ1] + standard[standard_index::YY2] + standard[standard_index::YY3] +
+            ZZ1R_t1 + ZZ1R_t2 + ZZ1R_t3 + ZZ1R_t4;
+    const Scalar XX2Rn_t1 = Scalar(0.0441) * standard[standard_index::M4];
+    const Scalar XX2Rn_t2 = Scalar(0.0441) * standard[standard_index::M5];
+    const Scalar XX2Rn_t3 = Scalar(0.0441) * standard[standard_index::M6];
+    const Scalar XX2Rn = ZZ1R_t1 + (standard[standard_index::YY2] - standard[standard_index::XX2]) + XX2Rn_t1 + XX2Rn_t2
+            + XX2Rn_t3;
+    const Scalar XZ2R = standard[standard_index::XZ2] - Scalar(0.21) * standard[standard_index::MZ3];
+    const Scalar ZZ2R = XX2Rn_t3 + (XX2Rn_t2 + (XX2Rn_t1 + (ZZ1R_t1 + standard[standard_index::ZZ2])));
+    const Scalar MX2R_t1 = Scalar(0.21) * standard[standard_index::M4];
+    const Scalar MX2R_t2 = Scalar(0.21) * standard[standard_index::M5];
+    const Scalar MX2R_t3 = Scalar(0.21) * standard[standard_index::M6];
+    const Scalar MX2R = standard[standard_index::MX2] + Scalar(0.21) * standard[standard_index::M3] + MX2R_t1 + MX2R_t2
+            + MX2R_t3;
+    const Scalar XX3Rn_t1 = Scalar(0.42) * standard[standard_index::MZ4];
+    const Scalar XX3Rn = standard[standard_index::YY3] - standard[standard_index::XX3] - standard[standard_index::YY4] -
+            XX3Rn_t1 - Scalar(0.038475) * standard[standard_index::M4] - Scalar(0.038475) * standard[standard_index::M5] -
+            Scalar(0.038475) * standard[standard_index::M6];
+    const Scalar XY3R = standard[standard_index::XY3] + Scalar(0.075) * standard[standard_index::MZ4] + Scalar(0.01575)
+            * standard[standard_index::M4] + Scalar(0.01575) * standard[standard_index::M5] + Scalar(0.01575) *
+            standard[standard_index::M6];
+    const Scalar ZZ3R = ZZ1R_t4 + (ZZ1R_t3 + (ZZ1R_t2 + (XX3Rn_t1 + (standard[standard_index::YY4] +
+            standard[standard_index::ZZ3]))));
+    const Scalar MX3R = standard[standard_index::MX3] - Scalar(0.075) * standard[standard_index::M4] - Scalar(0.075) *
+            standard[standard_index::M5] - Scalar(0.075) * standard[standard_index::M6];
+    const Scalar MY3R = MX2R_t3 + (MX2R_t2 + (MX2R_t1 + (standard[standard_index::MZ4] +
+            standard[standard_index::MY3])));
+    const Scalar XX4Rn = standard[standard_index::YY4] - standard[standard_index::XX4] - standard[standard_index::YY5];
+    const Scalar ZZ4R = standard[standard_index::YY5] + standard[standard_index::ZZ4];
+    const Scalar MY4R = standard[standard_index::MY4] - standard[standard_index::MZ5];
+    const Scalar XX5Rn_t1 = Scalar(0.14) * standard[standard_index::MZ6];
+    const Scalar XX5Rn_t2 = Scalar(0.0049) * standard[standard_index::M6];
+    const Scalar XX5Rn = standard[standard_index::YY5] - standard[standard_index::XX5] - standard[standard_index::YY6] -
+            XX5Rn_t1 - XX5Rn_t2;
+    const Scalar ZZ5R = XX5Rn_t2 + (XX5Rn_t1 + (standard[standard_index::YY6] + standard[standard_index::ZZ5]));
+    const Scalar MY5R = standard[standard_index::MZ6] + standard[standard_index::MY5] + Scalar(0.07) *
+            standard[standard_index::M6];
+    const Scalar XX6Rn = standard[standard_index::YY6] - standard[standard_index::XX6];
+    chi[base_index::ZZ1R] = ZZ1R;
+    chi[base_index::Fv1] = standard[standard_index::Fv1];
+    chi[base_index::Fc1] = standard[standard_index::Fc1];
+    chi[base_index::XX2R] = -XX2Rn;
+    chi[base_index::XY2] = standard[standard_index::XY2];
+    chi[base_index::XZ2R] = XZ2R;
+    chi[base_index::YZ2] = standard[standard_index::YZ2];
+    chi[base_index::ZZ2R] = ZZ2R;
+    chi[base_index::MX2R] = MX2R;
+    chi[base_index::MY2] = standard[standard_index::MY2];
+    chi[base_index::Fv2] = standard[standard_index::Fv2];
+    chi[base_index::Fc2] = standard[standard_index::Fc2];
+    chi[base_index::XX3R] = -XX3Rn;
+    chi[base_index::XY3R] = XY3R;
+    chi[base_index::XZ3] = standard[standard_index::XZ3];
+    chi[base_index::YZ3] = standard[standard_index::YZ3];
+    chi[base_index::ZZ3R] = ZZ3R;
+    chi[base_index::MX3R] = MX3R;
+    chi[base_index::MY3R] = MY3R;
+    chi[base_index::Fv3] = standard[standard_index::Fv3];
+    chi[base_index::Fc3] = standard[standard_index::Fc3];
+    chi[base_index::XX4R] = -XX4Rn;
+    chi[base_index::XY4] = standard[standard_index::XY4];
+    chi[base_index::XZ4] = standard[standard_index::XZ4];
+    chi[base_index::YZ4] = standard[standard_index::YZ4];
+    chi[base_index::ZZ4R] = ZZ4R;
+    chi[base_index::MX4] = standard[standard_index::MX4];
+    chi[base_index::MY4R] = MY4R;
+    chi[base_index::Fv4] = standard[standard_index::Fv4];
+    chi[base_index::Fc4] = standard[standard_index::Fc4];
+    chi[base_index::XX5R] = -XX5Rn;
+    chi[base_index::XY5] = standard[standard_index::XY5];
+    chi[base_index::XZ5] = standard[standard_index::XZ5];
+    chi[base_index::YZ5] = standard[standard_index::YZ5];
+    chi[base_index::ZZ5R] = ZZ5R;
+    chi[base_index::MX5] = standard[standard_index::MX5];
+    chi[base_index::MY5R] = MY5R;
+    chi[base_index::Fv5] = standard[standard_index::Fv5];
+    chi[base_index::Fc5] = standard[standard_index::Fc5];
+    chi[base_index::XX6R] = -XX6Rn;
+    chi[base_index::XY6] = standard[standard_index::XY6];
+    chi[base_index::XZ6] = standard[standard_index::XZ6];
+    chi[base_index::YZ6] = standard[standard_index::YZ6];
+    chi[base_index::ZZ6] = standard[standard_index::ZZ6];
+    chi[base_index::MX6] = standard[standard_index::MX6];
+    chi[base_index::MY6] = standard[standard_index::MY6];
+    chi[base_index::Fv6] = standard[standard_index::Fv6];
+    chi[base_index::Fc6] = standard[standard_index::Fc6];
 }
 
 }  // namespace idim_models::denso_vp6242g

@@ -5,13 +5,14 @@
 #include <cmath>
 
 #include "functions.hpp"
+#include "model.hpp"
 
 namespace idim_models::emps {
 
 /// Torque at zero acceleration: centrifugal, Coriolis, gravity, friction and other effects.
 ///   q [1] joint positions [rad or m]
 ///   qd [1] joint velocities [rad/s or m/s]
-///   chi [4] base parameters, in the order of base_parameter_names
+///   chi [base_parameters] base parameters, in the order of base_parameter_names
 ///   N [1] joint torques or forces [N*m or N]
 /// Scalar: float, double or any type with these operations. No heap, no exceptions.
 template <class Scalar>
@@ -20,9 +21,9 @@ void bias([[maybe_unused]] const Scalar* q,
           const Scalar* chi,
           Scalar* N) {
 
-    const Scalar& Fv1 = chi[1];
-    const Scalar& Fc1 = chi[2];
-    const Scalar& off1 = chi[3];
+    const Scalar& Fv1 = chi[base_index::Fv1];
+    const Scalar& Fc1 = chi[base_index::Fc1];
+    const Scalar& off1 = chi[base_index::off1];
     const Scalar N1 = off1 + (Fv1 * qd[0] + Fc1 * sign(qd[0]));
     N[0] = N1;
 }

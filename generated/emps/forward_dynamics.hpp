@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "functions.hpp"
+#include "model.hpp"
 
 namespace idim_models::emps {
 
@@ -12,7 +13,7 @@ namespace idim_models::emps {
 ///   q [1] joint positions [rad or m]
 ///   qd [1] joint velocities [rad/s or m/s]
 ///   tau [1] joint torques or forces, joint side [N*m or N]
-///   chi [4] base parameters, in the order of base_parameter_names
+///   chi [base_parameters] base parameters, in the order of base_parameter_names
 ///   qdd [1] joint accelerations [rad/s^2 or m/s^2]
 ///   D [1] pivots, all positive if and only if M is positive definite
 /// Scalar: float, double or any type with these operations. No heap, no exceptions.
@@ -24,10 +25,10 @@ void forward_dynamics([[maybe_unused]] const Scalar* q,
                       Scalar* qdd,
                       Scalar* D) {
 
-    const Scalar& M1 = chi[0];
-    const Scalar& Fv1 = chi[1];
-    const Scalar& Fc1 = chi[2];
-    const Scalar& off1 = chi[3];
+    const Scalar& M1 = chi[base_index::M1];
+    const Scalar& Fv1 = chi[base_index::Fv1];
+    const Scalar& Fc1 = chi[base_index::Fc1];
+    const Scalar& off1 = chi[base_index::off1];
     const Scalar b1 = tau[0] - (off1 + (Fv1 * qd[0] + Fc1 * sign(qd[0])));
     const Scalar Dinv1 = Scalar(1) / M1;
     const Scalar qdd1 = b1 * Dinv1;

@@ -5,12 +5,13 @@
 #include <cmath>
 
 #include "functions.hpp"
+#include "model.hpp"
 
 namespace idim_models::emps {
 
 /// Torque that holds the rigid links at rest.
 ///   q [1] joint positions [rad or m]
-///   chi [4] base parameters, in the order of base_parameter_names
+///   chi [base_parameters] base parameters, in the order of base_parameter_names
 ///   G [1] joint torques or forces [N*m or N]
 /// Scalar: float, double or any type with these operations. No heap, no exceptions.
 template <class Scalar>

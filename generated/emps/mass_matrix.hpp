@@ -5,12 +5,13 @@
 #include <cmath>
 
 #include "functions.hpp"
+#include "model.hpp"
 
 namespace idim_models::emps {
 
 /// Inertia matrix of the robot with its drives.
 ///   q [1] joint positions [rad or m]
-///   chi [4] base parameters, in the order of base_parameter_names
+///   chi [base_parameters] base parameters, in the order of base_parameter_names
 ///   M [1 x 1] symmetric
 /// Scalar: float, double or any type with these operations. No heap, no exceptions.
 template <class Scalar>
@@ -18,7 +19,7 @@ void mass_matrix([[maybe_unused]] const Scalar* q,
                  const Scalar* chi,
                  Scalar* M) {
 
-    const Scalar& M1 = chi[0];
+    const Scalar& M1 = chi[base_index::M1];
     M[0] = M1;
 }
 

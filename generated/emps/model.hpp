@@ -20,6 +20,35 @@ inline constexpr std::array<const char*, dof> joint_names = {
     "j1",
 };
 
+/// Places in chi, and columns of the regressor.
+namespace base_index {
+enum : int {
+    M1,
+    Fv1,
+    Fc1,
+    off1,
+};
+}  // namespace base_index
+
+/// Places among the standard parameters.
+namespace standard_index {
+enum : int {
+    XX1,
+    XY1,
+    XZ1,
+    YY1,
+    YZ1,
+    ZZ1,
+    MX1,
+    MY1,
+    MZ1,
+    M1,
+    Fv1,
+    Fc1,
+    off1,
+};
+}  // namespace standard_index
+
 /// Unit of each joint's position.
 inline constexpr std::array<const char*, dof> joint_units = {
     "m",

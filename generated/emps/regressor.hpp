@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "functions.hpp"
+#include "model.hpp"
 
 namespace idim_models::emps {
 
@@ -12,7 +13,7 @@ namespace idim_models::emps {
 ///   q [1] joint positions [rad or m]
 ///   qd [1] joint velocities [rad/s or m/s]
 ///   qdd [1] joint accelerations [rad/s^2 or m/s^2]
-///   W [1 x 4] row-major, row = joint, column = base parameter
+///   W [1 x base_parameters] row-major, row = joint, column = base parameter
 /// Scalar: float, double or any type with these operations. No heap, no exceptions.
 template <class Scalar>
 void regressor([[maybe_unused]] const Scalar* q,
@@ -21,10 +22,10 @@ void regressor([[maybe_unused]] const Scalar* q,
                Scalar* W) {
 
     const Scalar W1_Fc1 = sign(qd[0]);
-    W[0] = qdd[0];
-    W[1] = qd[0];
-    W[2] = W1_Fc1;
-    W[3] = Scalar(1);
+    W[base_index::M1] = qdd[0];
+    W[base_index::Fv1] = qd[0];
+    W[base_index::Fc1] = W1_Fc1;
+    W[base_index::off1] = Scalar(1);
 }
 
 }  // namespace idim_models::emps

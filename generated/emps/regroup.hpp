@@ -5,21 +5,22 @@
 #include <cmath>
 
 #include "functions.hpp"
+#include "model.hpp"
 
 namespace idim_models::emps {
 
 /// Base parameters of a robot whose standard parameters are known.
 ///   standard [standard_parameters] standard parameters, in the order of standard_parameter_names
-///   chi [4] base parameters, in the order of base_parameter_names
+///   chi [base_parameters] base parameters, in the order of base_parameter_names
 /// Scalar: float, double or any type with these operations. No heap, no exceptions.
 template <class Scalar>
 void regroup(const Scalar* standard,
              Scalar* chi) {
 
-    chi[0] = standard[9];
-    chi[1] = standard[10];
-    chi[2] = standard[11];
-    chi[3] = standard[12];
+    chi[base_index::M1] = standard[standard_index::M1];
+    chi[base_index::Fv1] = standard[standard_index::Fv1];
+    chi[base_index::Fc1] = standard[standard_index::Fc1];
+    chi[base_index::off1] = standard[standard_index::off1];
 }
 
 }  // namespace idim_models::emps

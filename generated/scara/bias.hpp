@@ -5,13 +5,14 @@
 #include <cmath>
 
 #include "functions.hpp"
+#include "model.hpp"
 
 namespace idim_models::scara {
 
 /// Torque at zero acceleration: centrifugal, Coriolis, gravity, friction and other effects.
 ///   q [2] joint positions [rad or m]
 ///   qd [2] joint velocities [rad/s or m/s]
-///   chi [8] base parameters, in the order of base_parameter_names
+///   chi [base_parameters] base parameters, in the order of base_parameter_names
 ///   N [2] joint torques or forces [N*m or N]
 /// Scalar: float, double or any type with these operations. No heap, no exceptions.
 template <class Scalar>
@@ -20,12 +21,12 @@ void bias(const Scalar* q,
           const Scalar* chi,
           Scalar* N) {
     using std::cos, std::sin;
-    const Scalar& Fv1 = chi[1];
-    const Scalar& Fc1 = chi[2];
-    const Scalar& MX2 = chi[4];
-    const Scalar& MY2 = chi[5];
-    const Scalar& Fv2 = chi[6];
-    const Scalar& Fc2 = chi[7];
+    const Scalar& Fv1 = chi[base_index::Fv1];
+    const Scalar& Fc1 = chi[base_index::Fc1];
+    const Scalar& MX2 = chi[base_index::MX2];
+    const Scalar& MY2 = chi[base_index::MY2];
+    const Scalar& Fv2 = chi[base_index::Fv2];
+    const Scalar& Fc2 = chi[base_index::Fc2];
     const Scalar C2 = cos(q[1]);
     const Scalar S2 = sin(q[1]);
     const Scalar WzWz1 = qd[0] * qd[0];

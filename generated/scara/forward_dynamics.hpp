@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "functions.hpp"
+#include "model.hpp"
 
 namespace idim_models::scara {
 
@@ -12,7 +13,7 @@ namespace idim_models::scara {
 ///   q [2] joint positions [rad or m]
 ///   qd [2] joint velocities [rad/s or m/s]
 ///   tau [2] joint torques or forces, joint side [N*m or N]
-///   chi [8] base parameters, in the order of base_parameter_names
+///   chi [base_parameters] base parameters, in the order of base_parameter_names
 ///   qdd [2] joint accelerations [rad/s^2 or m/s^2]
 ///   D [2] pivots, all positive if and only if M is positive definite
 /// Scalar: float, double or any type with these operations. No heap, no exceptions.
@@ -24,14 +25,14 @@ void forward_dynamics(const Scalar* q,
                       Scalar* qdd,
                       Scalar* D) {
     using std::cos, std::sin;
-    const Scalar& ZZ1R = chi[0];
-    const Scalar& Fv1 = chi[1];
-    const Scalar& Fc1 = chi[2];
-    const Scalar& ZZ2R = chi[3];
-    const Scalar& MX2 = chi[4];
-    const Scalar& MY2 = chi[5];
-    const Scalar& Fv2 = chi[6];
-    const Scalar& Fc2 = chi[7];
+    const Scalar& ZZ1R = chi[base_index::ZZ1R];
+    const Scalar& Fv1 = chi[base_index::Fv1];
+    const Scalar& Fc1 = chi[base_index::Fc1];
+    const Scalar& ZZ2R = chi[base_index::ZZ2R];
+    const Scalar& MX2 = chi[base_index::MX2];
+    const Scalar& MY2 = chi[base_index::MY2];
+    const Scalar& Fv2 = chi[base_index::Fv2];
+    const Scalar& Fc2 = chi[base_index::Fc2];
     const Scalar C2 = cos(q[1]);
     const Scalar S2 = sin(q[1]);
     const Scalar WzWz1 = qd[0] * qd[0];

@@ -5,12 +5,13 @@
 #include <cmath>
 
 #include "functions.hpp"
+#include "model.hpp"
 
 namespace idim_models::scara {
 
 /// Torque that holds the rigid links at rest.
 ///   q [2] joint positions [rad or m]
-///   chi [8] base parameters, in the order of base_parameter_names
+///   chi [base_parameters] base parameters, in the order of base_parameter_names
 ///   G [2] joint torques or forces [N*m or N]
 /// Scalar: float, double or any type with these operations. No heap, no exceptions.
 template <class Scalar>

@@ -5,12 +5,13 @@
 #include <cmath>
 
 #include "functions.hpp"
+#include "model.hpp"
 
 namespace idim_models::scara {
 
 /// Inertia matrix of the robot with its drives.
 ///   q [2] joint positions [rad or m]
-///   chi [8] base parameters, in the order of base_parameter_names
+///   chi [base_parameters] base parameters, in the order of base_parameter_names
 ///   M [2 x 2] symmetric
 /// Scalar: float, double or any type with these operations. No heap, no exceptions.
 template <class Scalar>
@@ -18,10 +19,10 @@ void mass_matrix(const Scalar* q,
                  const Scalar* chi,
                  Scalar* M) {
     using std::cos, std::sin;
-    const Scalar& ZZ1R = chi[0];
-    const Scalar& ZZ2R = chi[3];
-    const Scalar& MX2 = chi[4];
-    const Scalar& MY2 = chi[5];
+    const Scalar& ZZ1R = chi[base_index::ZZ1R];
+    const Scalar& ZZ2R = chi[base_index::ZZ2R];
+    const Scalar& MX2 = chi[base_index::MX2];
+    const Scalar& MY2 = chi[base_index::MY2];
     const Scalar C2 = cos(q[1]);
     const Scalar S2 = sin(q[1]);
     const Scalar S2_1 = MX2 * C2 - MY2 * S2;

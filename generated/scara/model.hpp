@@ -22,6 +22,52 @@ inline constexpr std::array<const char*, dof> joint_names = {
     "j2",
 };
 
+/// Places in chi, and columns of the regressor.
+namespace base_index {
+enum : int {
+    ZZ1R,
+    Fv1,
+    Fc1,
+    ZZ2R,
+    MX2,
+    MY2,
+    Fv2,
+    Fc2,
+};
+}  // namespace base_index
+
+/// Places among the standard parameters.
+namespace standard_index {
+enum : int {
+    XX1,
+    XY1,
+    XZ1,
+    YY1,
+    YZ1,
+    ZZ1,
+    MX1,
+    MY1,
+    MZ1,
+    M1,
+    Ia1,
+    Fv1,
+    Fc1,
+    XX2,
+    XY2,
+    XZ2,
+    YY2,
+    YZ2,
+    ZZ2,
+    MX2,
+    MY2,
+    MZ2,
+    M2,
+    Ia2_1,
+    Fv2,
+    Fc2,
+};
+}  // namespace standard_index
+
 /// Unit of each joint's position.
 inline constexpr std::array<const char*, dof> joint_units = {
     "rad",

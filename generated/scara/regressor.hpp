@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "functions.hpp"
+#include "model.hpp"
 
 namespace idim_models::scara {
 
@@ -12,7 +13,7 @@ namespace idim_models::scara {
 ///   q [2] joint positions [rad or m]
 ///   qd [2] joint velocities [rad/s or m/s]
 ///   qdd [2] joint accelerations [rad/s^2 or m/s^2]
-///   W [2 x 8] row-major, row = joint, column = base parameter
+///   W [2 x base_parameters] row-major, row = joint, column = base parameter
 /// Scalar: float, double or any type with these operations. No heap, no exceptions.
 template <class Scalar>
 void regressor(const Scalar* q,
@@ -36,22 +37,22 @@ void regressor(const Scalar* q,
     const Scalar W1_MX2 = VP2_2 + WP2r_3 * m1_2_2 - WzWz2 * m1_2_1;
     const Scalar W1_MY2 = VP2_1n - WP2r_3 * m1_2_1 - WzWz2 * m1_2_2;
     const Scalar W2_Fc2 = sign(qd[1]);
-    W[0] = qdd[0];
-    W[1] = qd[0];
-    W[2] = W1_Fc1;
-    W[3] = WP2r_3;
-    W[4] = W1_MX2;
-    W[5] = W1_MY2;
-    W[6] = Scalar(0);
-    W[7] = Scalar(0);
-    W[8] = Scalar(0);
-    W[9] = Scalar(0);
-    W[10] = Scalar(0);
-    W[11] = WP2r_3;
-    W[12] = VP2_2;
-    W[13] = VP2_1n;
-    W[14] = qd[1];
-    W[15] = W2_Fc2;
+    W[base_index::ZZ1R] = qdd[0];
+    W[base_index::Fv1] = qd[0];
+    W[base_index::Fc1] = W1_Fc1;
+    W[base_index::ZZ2R] = WP2r_3;
+    W[base_index::MX2] = W1_MX2;
+    W[base_index::MY2] = W1_MY2;
+    W[base_index::Fv2] = Scalar(0);
+    W[base_index::Fc2] = Scalar(0);
+    W[1 * base_parameters + base_index::ZZ1R] = Scalar(0);
+    W[1 * base_parameters + base_index::Fv1] = Scalar(0);
+    W[1 * base_parameters + base_index::Fc1] = Scalar(0);
+    W[1 * base_parameters + base_index::ZZ2R] = WP2r_3;
+    W[1 * base_parameters + base_index::MX2] = VP2_2;
+    W[1 * base_parameters + base_index::MY2] = VP2_1n;
+    W[1 * base_parameters + base_index::Fv2] = qd[1];
+    W[1 * base_parameters + base_index::Fc2] = W2_Fc2;
 }
 
 }  // namespace idim_models::scara

@@ -5,27 +5,29 @@
 #include <cmath>
 
 #include "functions.hpp"
+#include "model.hpp"
 
 namespace idim_models::scara {
 
 /// Base parameters of a robot whose standard parameters are known.
 ///   standard [standard_parameters] standard parameters, in the order of standard_parameter_names
-///   chi [8] base parameters, in the order of base_parameter_names
+///   chi [base_parameters] base parameters, in the order of base_parameter_names
 /// Scalar: float, double or any type with these operations. No heap, no exceptions.
 template <class Scalar>
 void regroup(const Scalar* standard,
              Scalar* chi) {
 
-    const Scalar ZZ1R = standard[5] + standard[10] + Scalar(0.25) * standard[22];
-    const Scalar ZZ2R = standard[18] + standard[23];
-    chi[0] = ZZ1R;
-    chi[1] = standard[11];
-    chi[2] = standard[12];
-    chi[3] = ZZ2R;
-    chi[4] = standard[19];
-    chi[5] = standard[20];
-    chi[6] = standard[24];
-    chi[7] = standard[25];
+    const Scalar ZZ1R = standard[standard_index::ZZ1] + standard[standard_index::Ia1] + Scalar(0.25) *
+            standard[standard_index::M2];
+    const Scalar ZZ2R = standard[standard_index::ZZ2] + standard[standard_index::Ia2_1];
+    chi[base_index::ZZ1R] = ZZ1R;
+    chi[base_index::Fv1] = standard[standard_index::Fv1];
+    chi[base_index::Fc1] = standard[standard_index::Fc1];
+    chi[base_index::ZZ2R] = ZZ2R;
+    chi[base_index::MX2] = standard[standard_index::MX2];
+    chi[base_index::MY2] = standard[standard_index::MY2];
+    chi[base_index::Fv2] = standard[standard_index::Fv2];
+    chi[base_index::Fc2] = standard[standard_index::Fc2];
 }
 
 }  // namespace idim_models::scara

@@ -23,8 +23,8 @@ struct printed {
 
 class cpp_printer {
   public:
-    cpp_printer(const expression_graph& graph, const std::set<std::string>& reserved)
-        : graph_(graph), live_(graph.live()), uses_(graph.nodes().size(), 0), used_(reserved) {
+    cpp_printer(const expression_graph& graph, const std::set<std::string>& reserved, const element_printer& element)
+        : graph_(graph), element_(element), live_(graph.live()), uses_(graph.nodes().size(), 0), used_(reserved) {
         count_uses();
     }
 
@@ -45,7 +45,7 @@ class cpp_printer {
         for (const graph_output& out : outputs) {
             owner_ = fmt::format("{}{}", out.array, out.index + 1);
             declare_shared(out.value.id);
-            emit(fmt::format("{}[{}] = {};", out.array, out.index, with_sign(out.value)));
+            emit(fmt::format("{} = {};", element_(out.array, out.index), with_sign(out.value)));
         }
         return std::move(lines_);
     }
@@ -87,7 +87,7 @@ class cpp_printer {
         }
         const graph_symbol& symbol = graph_.symbols()[static_cast<std::size_t>(node.symbol)];
         variable_[id] = unique(symbol.name);
-        emit(fmt::format("const Scalar& {} = chi[{}];", variable_[id], symbol.index));
+        emit(fmt::format("const Scalar& {} = {};", variable_[id], element_("chi", symbol.index)));
     }
 
     /// Gives every shared, unnamed node below `id` a variable before the line that needs it.
@@ -127,7 +127,7 @@ class cpp_printer {
         }
         const graph_symbol& symbol = graph_.symbols()[static_cast<std::size_t>(node.symbol)];
         const std::string argument = argument_name(symbol.role);
-        return {symbol.role == symbol_role::time ? argument : fmt::format("{}[{}]", argument, symbol.index)};
+        return {symbol.role == symbol_role::time ? argument : element_(argument, symbol.index)};
     }
 
     printed operand(int id) const {
@@ -187,6 +187,7 @@ class cpp_printer {
     }
 
     const expression_graph& graph_;
+    const element_printer& element_;
     std::vector<bool> live_;
     std::vector<int> uses_;
     std::set<std::string> used_;
@@ -223,8 +224,13 @@ std::string argument_name(symbol_role role) {
     throw std::logic_error("a leaf of this role is no argument");
 }
 
-std::vector<std::string> print_cpp(const expression_graph& graph, const std::set<std::string>& reserved) {
-    return cpp_printer(graph, reserved).run();
+std::string numbered_element(const std::string& array, int index) {
+    return fmt::format("{}[{}]", array, index);
+}
+
+std::vector<std::string> print_cpp(const expression_graph& graph, const std::set<std::string>& reserved,
+                                   const element_printer& element) {
+    return cpp_printer(graph, reserved, element).run();
 }
 
 }  // namespace idim::generator

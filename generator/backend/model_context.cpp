@@ -54,7 +54,7 @@ std::vector<function_plan> plans() {
     };
 }
 
-std::map<std::string, std::string> meanings(int n, std::size_t b) {
+std::map<std::string, std::string> meanings(int n) {
     return {
         {"q", fmt::format("q [{}] joint positions [rad or m]", n)},
         {"qd", fmt::format("qd [{}] joint velocities [rad/s or m/s]", n)},
@@ -62,8 +62,8 @@ std::map<std::string, std::string> meanings(int n, std::size_t b) {
         {"tau", fmt::format("tau [{}] joint torques or forces, joint side [N*m or N]", n)},
         {"t", "t time [s]"},
         {"temp", fmt::format("temp [{}] joint temperatures [degC]", n)},
-        {"chi", fmt::format("chi [{}] base parameters, in the order of base_parameter_names", b)},
-        {"W", fmt::format("W [{} x {}] row-major, row = joint, column = base parameter", n, b)},
+        {"chi", "chi [base_parameters] base parameters, in the order of base_parameter_names"},
+        {"W", fmt::format("W [{} x base_parameters] row-major, row = joint, column = base parameter", n)},
         {"M", fmt::format("M [{} x {}] symmetric", n, n)},
         {"N", fmt::format("N [{}] joint torques or forces [N*m or N]", n)},
         {"G", fmt::format("G [{}] joint torques or forces [N*m or N]", n)},
@@ -73,7 +73,7 @@ std::map<std::string, std::string> meanings(int n, std::size_t b) {
 }
 
 std::vector<argument_context> arguments(const function_plan& plan, const robot_model& model) {
-    const auto meaning = meanings(model.tree.dof(), model.base.parameters.size());
+    const auto meaning = meanings(model.tree.dof());
     std::vector<argument_context> result;
     for (const std::string& name : plan.inputs) {
         const bool unused =
@@ -116,12 +116,39 @@ std::set<std::string> arrays_read(const expression_graph& graph) {
 
 /// Names that mean something else in the body: arguments, the scalar type and the functions it uses.
 std::set<std::string> reserved_names() {
-    std::set<std::string> names = {"Scalar", "std", "q", "qd", "qdd", "tau", "t",       "temp",
-                                   "chi",    "W",   "M", "N",  "G",   "D",   "standard"};
+    std::set<std::string> names = {"Scalar",     "std",
+                                   "q",          "qd",
+                                   "qdd",        "tau",
+                                   "t",          "temp",
+                                   "chi",        "W",
+                                   "M",          "N",
+                                   "G",          "D",
+                                   "standard",   "base_parameters",
+                                   "base_index", "standard_index"};
     for (int kind = static_cast<int>(function_kind::sin); kind <= static_cast<int>(function_kind::pow); ++kind) {
         names.insert(to_string(static_cast<function_kind>(kind)));
     }
     return names;
+}
+
+/// Parameters by name: where a column comes in, no other line of the code changes.
+element_printer named_elements(const robot_model& model) {
+    return [&model](const std::string& array, int index) {
+        const auto& base = model.base.parameters;
+        const auto place = static_cast<std::size_t>(index);
+        if (array == "standard") {
+            return "standard[standard_index::" + model.parameters.all[place].name + "]";
+        }
+        if (array == "chi") {
+            return "chi[base_index::" + base[place].name + "]";
+        }
+        if (array == "W") {
+            const std::size_t row = place / base.size();
+            const std::string before = row == 0 ? "" : fmt::format("{} * base_parameters + ", row);
+            return "W[" + before + "base_index::" + base[place % base.size()].name + "]";
+        }
+        return numbered_element(array, index);
+    };
 }
 
 function_context lay_out(const function_plan& plan, const robot_model& model, const expression_graph& graph) {
@@ -130,7 +157,7 @@ function_context lay_out(const function_plan& plan, const robot_model& model, co
                               arguments(plan, model),
                               count_operations(graph),
                               called_functions(graph),
-                              print_cpp(graph, reserved_names())};
+                              print_cpp(graph, reserved_names(), named_elements(model))};
     const std::set<std::string> read = arrays_read(graph);
     for (argument_context& argument : function.arguments) {
         argument.used = argument.is_output || read.count(argument.name) != 0;
