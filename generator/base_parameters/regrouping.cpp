@@ -182,10 +182,12 @@ std::vector<std::vector<std::size_t>> regrouping::constants_of(const kinematic_j
     for (std::size_t i = 0; i < tree_.constants.size(); ++i) {
         const kinematic_constant& constant = tree_.constants[i];
         const GiNaC::symbol& symbol = tree_.constants[constant.is_sine ? i - 1 : i].symbol;
-        const std::array<ex, 8> entries = {joint.b,         joint.d,         joint.r,         joint.rate,
-                                           joint.gamma.cos, joint.alpha.cos, joint.theta.cos, joint.position()[2]};
+        const std::array<ex, 8> entries = {joint.b,         joint.d,         joint.r,         joint.position()[2],
+                                           joint.gamma.cos, joint.alpha.cos, joint.theta.cos, joint.theta.sin};
         const bool enters =
-            std::any_of(entries.begin(), entries.end(), [&symbol](const ex& e) { return e.has(symbol); });
+            std::any_of(entries.begin(), entries.end(), [&symbol](const ex& e) { return e.has(symbol); }) ||
+            std::any_of(joint.rates.begin(), joint.rates.end(),
+                        [&symbol](const joint_rate& rate) { return rate.factor.has(symbol); });
         if (enters && constant.is_sine) {
             groups.back().push_back(i);
         } else if (enters) {
@@ -230,7 +232,10 @@ regrouping::formula_table regrouping::relate_to_antecedent(int link, std::size_t
     }
     std::vector<std::size_t> local = columns_of(own_.kept, link);
     for (int kind = 0; joint.antecedent >= 0 && kind <= static_cast<int>(parameter_kind::M); ++kind) {
-        local.push_back(parameters_.index(joint.antecedent, static_cast<parameter_kind>(kind)));
+        const std::size_t p = parameters_.index(joint.antecedent, static_cast<parameter_kind>(kind));
+        if (p < parameters_.all.size()) {
+            local.push_back(p);
+        }
     }
     const std::size_t first_target = local.size();
     local.insert(local.end(), targets.begin(), targets.end());
