@@ -65,10 +65,10 @@ std::string hash_inputs(const robot_model& model) {
 }
 
 /// The manifest of what was rendered, as a file beside it.
-rendered_file manifest_of(const robot_model& model, const template_context& context,
-                          const std::vector<rendered_file>& files) {
+rendered_file manifest_of(const robot_model& model, const template_context& context, const generated_model& generated) {
     manifest content = describe(model, context);
-    for (const rendered_file& file : files) {
+    content.target = generated.target;
+    for (const rendered_file& file : generated.files) {
         content.files.push_back(file.name);
     }
     return {manifest_name, to_json_text(content)};
@@ -88,19 +88,22 @@ base_report find_base(const std::string& robot_file, const std::string& template
     return report(load(robot_file, templates));
 }
 
-generated_model generate(const std::string& robot_file, const std::string& templates) {
+generated_model generate(const std::string& robot_file, const std::string& templates,
+                         const generation_options& options) {
     const auto start = std::chrono::steady_clock::now();
     const robot_model model = load(robot_file, templates);
     generated_model result;
     result.robot = model.description.name;
+    result.target = options.target;
     result.base = report(model);
     result.input_hash = hash_inputs(model);
     model_operations counts;
-    const template_context context = build_context(model, version(), result.input_hash, counts);
+    const template_context context =
+        build_context(model, {version(), result.input_hash}, languages_of(options.target), counts);
     result.joints = context.joints;
     result.operations = table(counts);
-    result.files = render_cpp(context, templates + "/cpp");
-    result.files.push_back(manifest_of(model, context, result.files));
+    result.files = render(context, templates + "/" + options.target);
+    result.files.push_back(manifest_of(model, context, result));
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     result.rigid_operations = table(count_rigid(load(robot_file, templates, true)));
     return result;

@@ -16,7 +16,6 @@ namespace idim_models::denso_vp6242g {
 template <class Scalar>
 void regroup(const Scalar* standard,
              Scalar* chi) {
-
     const Scalar ZZ1R_t1 = Scalar(0.0441) * standard[standard_index::M3];
     const Scalar ZZ1R_t2 = Scalar(0.049725) * standard[standard_index::M4];
     const Scalar ZZ1R_t3 = Scalar(0.049725) * standard[standard_index::M5];

@@ -20,7 +20,6 @@ void bias([[maybe_unused]] const Scalar* q,
           const Scalar* qd,
           const Scalar* chi,
           Scalar* N) {
-
     const Scalar& Fv1 = chi[base_index::Fv1];
     const Scalar& Fc1 = chi[base_index::Fc1];
     const Scalar& off1 = chi[base_index::off1];

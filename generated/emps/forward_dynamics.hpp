@@ -24,7 +24,6 @@ void forward_dynamics([[maybe_unused]] const Scalar* q,
                       const Scalar* chi,
                       Scalar* qdd,
                       Scalar* D) {
-
     const Scalar& M1 = chi[base_index::M1];
     const Scalar& Fv1 = chi[base_index::Fv1];
     const Scalar& Fc1 = chi[base_index::Fc1];

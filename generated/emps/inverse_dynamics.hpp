@@ -22,7 +22,6 @@ void inverse_dynamics([[maybe_unused]] const Scalar* q,
                       const Scalar* qdd,
                       const Scalar* chi,
                       Scalar* tau) {
-
     const Scalar& M1 = chi[base_index::M1];
     const Scalar& Fv1 = chi[base_index::Fv1];
     const Scalar& Fc1 = chi[base_index::Fc1];

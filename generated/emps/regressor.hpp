@@ -20,7 +20,6 @@ void regressor([[maybe_unused]] const Scalar* q,
                const Scalar* qd,
                const Scalar* qdd,
                Scalar* W) {
-
     const Scalar W1_Fc1 = sign(qd[0]);
     W[base_index::M1] = qdd[0];
     W[base_index::Fv1] = qd[0];

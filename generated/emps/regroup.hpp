@@ -16,7 +16,6 @@ namespace idim_models::emps {
 template <class Scalar>
 void regroup(const Scalar* standard,
              Scalar* chi) {
-
     chi[base_index::M1] = standard[standard_index::M1];
     chi[base_index::Fv1] = standard[standard_index::Fv1];
     chi[base_index::Fc1] = standard[standard_index::Fc1];

@@ -16,7 +16,6 @@ namespace idim_models::scara {
 template <class Scalar>
 void regroup(const Scalar* standard,
              Scalar* chi) {
-
     const Scalar ZZ1R = standard[standard_index::ZZ1] + standard[standard_index::Ia1] + Scalar(0.25) *
             standard[standard_index::M2];
     const Scalar ZZ2R = standard[standard_index::ZZ2] + standard[standard_index::Ia2_1];

@@ -14,6 +14,7 @@ struct manifest_joint {
     std::string name;
     std::string type;        ///< "revolute", "prismatic" or "fixed"
     std::string antecedent;  ///< name of the joint before it, or "base"
+    bool driven = false;     ///< has a coordinate of its own
     /// Entries of its Denavit-Hartenberg row that are not zero, as written: {"alpha", "pi/2"}.
     std::vector<std::pair<std::string, std::string>> row;
     std::optional<std::pair<double, double>> position;   ///< limits [rad or m]
@@ -33,6 +34,7 @@ struct manifest_effect {
 struct manifest {
     std::string generator;  ///< "idim 0.1.0"
     std::string robot;
+    std::string target;  ///< "cpp"
     std::string input_hash;
     std::vector<std::string> files;
     std::vector<std::string> gravity;  ///< three expressions [m/s^2]

@@ -1,9 +1,5 @@
 #include "backend/model_manifest.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 namespace idim::generator {
 
 namespace {
@@ -20,13 +16,16 @@ const char* to_string(joint_type type) {
     return "fixed";
 }
 
-manifest_joint describe(const joint_description& joint, const robot_description& robot) {
-    manifest_joint result{
-        joint.name,          to_string(joint.type), "base", {}, joint.limits.position, joint.limits.velocity,
-        joint.limits.effort, joint.drive_gain};
-    if (joint.antecedent >= 0) {
-        result.antecedent = robot.joints[static_cast<std::size_t>(joint.antecedent)].name;
-    }
+manifest_joint describe(const joint_description& joint, bool is_driven, const robot_description& robot) {
+    manifest_joint result;
+    result.name = joint.name;
+    result.type = to_string(joint.type);
+    result.antecedent = joint.antecedent < 0 ? "base" : robot.joints[static_cast<std::size_t>(joint.antecedent)].name;
+    result.driven = is_driven;
+    result.position = joint.limits.position;
+    result.velocity = joint.limits.velocity;
+    result.effort = joint.limits.effort;
+    result.drive_gain = joint.drive_gain;
     const std::pair<const char*, const expression_text*> row[] = {{"gamma", &joint.gamma}, {"b", &joint.b},
                                                                   {"alpha", &joint.alpha}, {"d", &joint.d},
                                                                   {"theta", &joint.theta}, {"r", &joint.r}};
@@ -61,8 +60,9 @@ manifest describe(const robot_model& model, const template_context& context) {
         result.gravity.push_back(entry.text);
     }
     result.constants = named_constants(model);
-    for (const joint_description& joint : model.description.joints) {
-        result.joints.push_back(describe(joint, model.description));
+    for (std::size_t j = 0; j < model.description.joints.size(); ++j) {
+        const bool is_driven = model.tree.joints[j].coordinate >= 0;
+        result.joints.push_back(describe(model.description.joints[j], is_driven, model.description));
     }
     for (std::size_t i = 0; i < model.effects.size(); ++i) {
         result.effects.push_back(describe(model.description.effects[i], model.effects[i], model.description));

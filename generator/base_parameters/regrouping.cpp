@@ -78,6 +78,10 @@ std::optional<constant_polynomial> polynomial(const std::vector<monomial>& candi
     return result;
 }
 
+bool agree(const rational& exact, double by_qr) {
+    return std::abs(to_double(exact) - by_qr) < 1e-9 * std::max(1.0, std::abs(by_qr));
+}
+
 std::vector<prime_field> to_field(const std::vector<rational>& values) {
     std::vector<prime_field> result;
     for (const rational& value : values) {
@@ -136,7 +140,7 @@ std::map<std::size_t, std::map<std::size_t, constant_polynomial>> fit_coefficien
 
 regrouping::regrouping(const standard_regressor& W, const kinematic_tree& tree, const standard_parameters& parameters,
                        const std::vector<std::size_t>& preference)
-    : W_(W), tree_(tree), parameters_(parameters), preference_(preference) {
+    : W_(W), angles_(W.graph), tree_(tree), parameters_(parameters), preference_(preference) {
     // Rows for the largest rank there can be, and some to spare: rows of outer joints see few columns.
     points_ = W.columns / W.dof + 3;
     own_constants_ = draw_constants(0);
@@ -167,7 +171,7 @@ regrouping::field_rows regrouping::rows_at(const std::vector<rational>& constant
         const std::size_t first = rows.size();
         rows.resize(first + static_cast<std::size_t>(W_.dof),
                     std::vector<prime_field>(static_cast<std::size_t>(W_.columns)));
-        sample_point<prime_field> point(static_cast<std::uint64_t>(s) + 1, point_height);
+        sample_point<prime_field> point(angles_, static_cast<std::uint64_t>(s) + 1, point_height);
         const std::vector<prime_field> entries = point.evaluate_at(W_.graph, values);
         for (std::size_t k = 0; k < entries.size(); ++k) {
             rows[first + static_cast<std::size_t>(W_.row_of_output[k])]
@@ -182,10 +186,12 @@ std::vector<std::vector<std::size_t>> regrouping::constants_of(const kinematic_j
     for (std::size_t i = 0; i < tree_.constants.size(); ++i) {
         const kinematic_constant& constant = tree_.constants[i];
         const GiNaC::symbol& symbol = tree_.constants[constant.is_sine ? i - 1 : i].symbol;
-        const std::array<ex, 8> entries = {joint.b,         joint.d,         joint.r,         joint.rate,
-                                           joint.gamma.cos, joint.alpha.cos, joint.theta.cos, joint.position()[2]};
+        const std::array<ex, 8> entries = {joint.b,         joint.d,         joint.r,         joint.position()[2],
+                                           joint.gamma.cos, joint.alpha.cos, joint.theta.cos, joint.theta.sin};
         const bool enters =
-            std::any_of(entries.begin(), entries.end(), [&symbol](const ex& e) { return e.has(symbol); });
+            std::any_of(entries.begin(), entries.end(), [&symbol](const ex& e) { return e.has(symbol); }) ||
+            std::any_of(joint.rates.begin(), joint.rates.end(),
+                        [&symbol](const joint_rate& rate) { return rate.factor.has(symbol); });
         if (enters && constant.is_sine) {
             groups.back().push_back(i);
         } else if (enters) {
@@ -230,7 +236,10 @@ regrouping::formula_table regrouping::relate_to_antecedent(int link, std::size_t
     }
     std::vector<std::size_t> local = columns_of(own_.kept, link);
     for (int kind = 0; joint.antecedent >= 0 && kind <= static_cast<int>(parameter_kind::M); ++kind) {
-        local.push_back(parameters_.index(joint.antecedent, static_cast<parameter_kind>(kind)));
+        const std::size_t p = parameters_.index(joint.antecedent, static_cast<parameter_kind>(kind));
+        if (p < parameters_.all.size()) {
+            local.push_back(p);
+        }
     }
     const std::size_t first_target = local.size();
     local.insert(local.end(), targets.begin(), targets.end());
@@ -294,7 +303,8 @@ regrouped_column regrouping::column(const formula_table& table, std::size_t k, s
         const auto entry = row->second.find(result.kept);
         const constant_polynomial found = entry == row->second.end() ? constant_polynomial() : entry->second;
         result.exact = found.value(own_constants_);
-        if (prime_field(result.exact) == own_.beta[k][d]) {
+        // An irrational number has a fraction with the same residue too: the QR tells.
+        if (prime_field(result.exact) == own_.beta[k][d] && agree(result.exact, by_qr)) {
             result.coefficient = found;
             return result;
         }
@@ -302,7 +312,7 @@ regrouped_column regrouping::column(const formula_table& table, std::size_t k, s
     // A short fraction if that is what the QR sees too, otherwise the QR's own number.
     bool found = true;
     const rational fraction = reconstruct(own_.beta[k][d], found);
-    result.is_exact = found && std::abs(to_double(fraction) - by_qr) < 1e-9 * std::max(1.0, std::abs(by_qr));
+    result.is_exact = found && agree(fraction, by_qr);
     result.exact = result.is_exact ? fraction : cln::rational(cln::cl_DF(by_qr));
     result.coefficient = constant_polynomial(result.exact);
     return result;
@@ -323,7 +333,7 @@ std::vector<regrouped_column> regrouping::columns(const Eigen::MatrixXd& beta) c
 }
 
 std::vector<std::vector<rational>> regrouping::exact_rows(int point_number) const {
-    sample_point<rational> point(static_cast<std::uint64_t>(point_number) + 1, point_height);
+    sample_point<rational> point(angles_, static_cast<std::uint64_t>(point_number) + 1, point_height);
     const std::vector<rational> entries = point.evaluate_at(W_.graph, by_symbol(W_.graph, own_constants_));
     std::vector<std::vector<rational>> rows(static_cast<std::size_t>(W_.dof),
                                             std::vector<rational>(static_cast<std::size_t>(W_.columns), rational(0)));

@@ -3,6 +3,7 @@
 #include <map>
 #include <vector>
 
+#include "base_parameters/angle_table.hpp"
 #include "base_parameters/column_selection.hpp"
 #include "base_parameters/constant_polynomial.hpp"
 #include "base_parameters/standard_regressor.hpp"
@@ -73,6 +74,7 @@ class regrouping {
     regrouped_column column(const formula_table& table, std::size_t k, std::size_t d, double by_qr) const;
 
     const standard_regressor& W_;
+    angle_table angles_;
     const kinematic_tree& tree_;
     const standard_parameters& parameters_;
     const std::vector<std::size_t>& preference_;

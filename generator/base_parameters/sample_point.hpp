@@ -5,6 +5,7 @@
 #include <random>
 #include <vector>
 
+#include "base_parameters/angle_table.hpp"
 #include "graph/evaluate.hpp"
 #include "graph/expression_graph.hpp"
 
@@ -14,13 +15,14 @@ namespace idim::generator {
 using constant_values = std::vector<rational>;
 
 /// A random state of the robot in exact numbers, from which a graph is evaluated over a field T (rationals, or integers
-/// modulo a prime). Cosine and sine of an angle lie on the unit circle exactly: ((1-t^2)/(1+t^2), 2t/(1+t^2)) with t
-/// rational. Signs are +1 or -1, abs(x) = sign(x) x; other functions are not rational and stand for values of their
-/// own. The same seed gives the same state for every T.
+/// modulo a prime). Cosine and sine of a base angle lie on the unit circle exactly: ((1-t^2)/(1+t^2), 2t/(1+t^2)) with
+/// t rational; other angles follow by the addition theorems. Signs are +1 or -1, abs(x) = sign(x) x; other functions
+/// are not rational and stand for values of their own. The same seed gives the same state for every T.
 template <class T>
 class sample_point {
   public:
-    sample_point(std::uint64_t seed, std::uint64_t height) : random_(seed), height_(height) {}
+    sample_point(const angle_table& angles, std::uint64_t seed, std::uint64_t height)
+        : angles_(angles), random_(seed), height_(height) {}
 
     /// Values of all outputs of the graph.
     std::vector<T> evaluate_at(const expression_graph& graph, const constant_values& constants) {
@@ -38,9 +40,9 @@ class sample_point {
         const int node = argument.id;
         switch (kind) {
             case function_kind::cos:
-                return T(circle(node).first);
+                return angle(node).first;
             case function_kind::sin:
-                return T(circle(node).second);
+                return angle(node).second;
             case function_kind::sign:
                 return T(rational(sign(node)));
             case function_kind::abs:
@@ -57,8 +59,27 @@ class sample_point {
         return rational(numerator) / rational(random_() % 2 == 0 ? denominator : -denominator);
     }
 
-    std::pair<rational, rational> circle(int node) {
-        const auto [at, fresh] = circles_.try_emplace(node);
+    using turn = std::pair<T, T>;  ///< cosine and sine
+
+    static turn add(const turn& a, const turn& b) {
+        return {a.first * b.first - a.second * b.second, a.first * b.second + a.second * b.first};
+    }
+
+    turn angle(int argument) {
+        const angle_form& form = angles_[argument];
+        turn sum = {T(form.cos), T(form.sin)};
+        for (const angle_form::term& term : form.terms) {
+            const auto [cos, sin] = base_circle(term.base);
+            const turn step = {T(cos), T(term.power < 0 ? -sin : sin)};
+            for (int k = 0; k < std::abs(term.power); ++k) {
+                sum = add(sum, step);
+            }
+        }
+        return sum;
+    }
+
+    std::pair<rational, rational> base_circle(int base) {
+        const auto [at, fresh] = circles_.try_emplace(base);
         if (fresh) {
             const rational t = draw();
             const rational norm = 1 + t * t;
@@ -77,6 +98,7 @@ class sample_point {
         return at->second;
     }
 
+    const angle_table& angles_;
     std::mt19937_64 random_;
     std::uint64_t height_;
     std::map<int, std::pair<rational, rational>> circles_;

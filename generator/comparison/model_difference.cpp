@@ -64,7 +64,7 @@ std::string text_of(const std::optional<double>& number) {
 }
 
 entries entries_of(const manifest_joint& joint) {
-    entries result = {{"type", joint.type}, {"antecedent", joint.antecedent}};
+    entries result = {{"type", joint.type}, {"antecedent", joint.antecedent}, {"driven", joint.driven ? "yes" : "no"}};
     for (const char* const name : {"gamma", "b", "alpha", "d", "theta", "r"}) {
         const std::string* const entry = find(joint.row, name);
         result.emplace_back(name, entry == nullptr ? "0" : *entry);
@@ -80,7 +80,7 @@ entries entries_of(const manifest_joint& joint) {
 std::vector<std::string> joint_names(const manifest& content, bool driven_only) {
     std::vector<std::string> names;
     for (const manifest_joint& joint : content.joints) {
-        if (!driven_only || joint.type != "fixed") {
+        if (!driven_only || joint.driven) {
             names.push_back(joint.name);
         }
     }
@@ -278,7 +278,7 @@ std::optional<std::string> reason_not_to_compare(const manifest& before, const m
     }
     for (const manifest_joint& joint : after.joints) {
         for (const manifest_joint& old : before.joints) {
-            if (joint.name == old.name && joint.type != old.type) {
+            if (joint.name == old.name && joint.driven && joint.type != old.type) {
                 return fmt::format("joint {} was {}, is {}", joint.name, old.type, joint.type);
             }
         }

@@ -11,7 +11,7 @@ namespace {
 std::vector<std::string> driven_joints(const manifest& content) {
     std::vector<std::string> names;
     for (const manifest_joint& joint : content.joints) {
-        if (joint.type != "fixed") {
+        if (joint.driven) {
             names.push_back(joint.name);
         }
     }

@@ -1,6 +1,7 @@
 #include "description/robot_description.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <filesystem>
 #include <tuple>
@@ -30,6 +31,14 @@ double read_positive(const yaml_value& value) {
         value.reject("a positive number");
     }
     return number;
+}
+
+bool read_flag(const yaml_value& value) {
+    const std::string text = value.text("true or false");
+    if (text != "true" && text != "false") {
+        value.reject("true or false");
+    }
+    return text == "true";
 }
 
 std::vector<expression_text> read_gravity(const yaml_fields& robot) {
@@ -135,8 +144,8 @@ void read_drive(const yaml_fields& row, joint_description& joint) {
 }
 
 written_joint read_joint(const yaml_value& written, std::size_t number) {
-    const yaml_fields row(
-        written, {"name", "type", "antecedent", "gamma", "b", "alpha", "d", "theta", "r", "limits", "drive_gain"});
+    const yaml_fields row(written, {"name", "type", "antecedent", "gamma", "b", "alpha", "d", "theta", "r", "massless",
+                                    "limits", "drive_gain"});
     written_joint result;
     joint_description& joint = result.joint;
     joint.where = written.where();
@@ -153,6 +162,9 @@ written_joint read_joint(const yaml_value& written, std::size_t number) {
     joint.d = read_row_entry(row, "d", false);
     joint.theta = read_row_entry(row, "theta", joint.type == joint_type::revolute);
     joint.r = read_row_entry(row, "r", joint.type == joint_type::prismatic);
+    if (const auto massless = row.find("massless")) {
+        joint.massless = read_flag(*massless);
+    }
     read_drive(row, joint);
     return result;
 }
@@ -266,7 +278,7 @@ ordered_joints read_joints(const yaml_value& written) {
 std::vector<int> driven_joints(const std::vector<joint_description>& joints) {
     std::vector<int> driven;
     for (std::size_t j = 0; j < joints.size(); ++j) {
-        if (joints[j].type != joint_type::fixed) {
+        if (has_own_coordinate(joints[j])) {
             driven.push_back(static_cast<int>(j));
         }
     }
@@ -462,6 +474,7 @@ std::string joint_text(const joint_description& joint, const std::vector<joint_d
                        ", antecedent: " + (joint.antecedent == base ? "base" : joints[joint.antecedent].name) +
                        ", gamma: " + joint.gamma.text + ", b: " + joint.b.text + ", alpha: " + joint.alpha.text +
                        ", d: " + joint.d.text + ", theta: " + joint.theta.text + ", r: " + joint.r.text;
+    text += joint.massless ? ", massless: true" : "";
     std::string limits;
     const auto add_limit = [&](const std::string& name, const std::string& value) {
         limits += (limits.empty() ? "" : ", ") + name + ": " + value;
@@ -500,6 +513,22 @@ std::string control_text(const control_description& control) {
 }
 
 }  // namespace
+
+bool has_own_coordinate(const joint_description& joint) {
+    if (joint.type == joint_type::fixed) {
+        return false;
+    }
+    const std::string& text = joint.type == joint_type::revolute ? joint.theta.text : joint.r.text;
+    const auto is_letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+    for (std::size_t at = text.find('q'); at != std::string::npos; at = text.find('q', at + 1)) {
+        const bool starts = at == 0 || !is_letter(text[at - 1]);
+        const bool ends = at + 1 == text.size() || !is_letter(text[at + 1]);
+        if (starts && ends) {
+            return true;
+        }
+    }
+    return false;
+}
 
 robot_description read_robot(const std::string& file) {
     if (std::filesystem::path(file).extension() == ".urdf") {

@@ -26,6 +26,8 @@ struct joint_limits {
 
 /// One modified Denavit-Hartenberg row (METHODS.md, "Model"): the frame of this joint's link in that of its antecedent
 /// is Rot(z,gamma) Trans(z,b) Rot(x,alpha) Trans(x,d) Rot(z,theta) Trans(z,r). Angles in radians, lengths in metres.
+/// The variable of a joint that moves, theta or r, is an expression of its own coordinate `q` and of those of other
+/// joints, `q_<name>`; one without `q` has no coordinate of its own and moves with the others.
 struct joint_description {
     std::string name;
     joint_type type = joint_type::revolute;
@@ -76,6 +78,9 @@ struct robot_description {
 
 /// Reads robots/<name>/<name>.yaml. Throws input_error, one line naming file, line, field and what was expected.
 robot_description read_robot(const std::string& file);
+
+/// Whether the joint's variable names its own coordinate `q`: otherwise it is fixed or moves with other joints.
+bool has_own_coordinate(const joint_description& joint);
 
 /// Readable YAML-like listing of a description, for tests and messages.
 std::string to_string(const robot_description& robot);

@@ -10,13 +10,13 @@ namespace {
 
 using GiNaC::ex;
 
-/// Coordinates between joint k and the base, nearest first, k itself not among them.
-std::vector<std::size_t> ancestors(const kinematic_tree& tree, std::size_t k) {
+/// Coordinates before k that row k of the lower triangle couples with, last first: in a tree without coupled joints
+/// those between joint k and the base.
+std::vector<std::size_t> coupled_with(const std::vector<std::vector<ex>>& M, std::size_t k) {
     std::vector<std::size_t> result;
-    for (const int j : tree.path_to_base(tree.driven[k])) {
-        const int coordinate = tree.joints[static_cast<std::size_t>(j)].coordinate;
-        if (coordinate >= 0 && static_cast<std::size_t>(coordinate) != k) {
-            result.push_back(static_cast<std::size_t>(coordinate));
+    for (std::size_t i = k; i-- > 0;) {
+        if (!M[k][i].is_zero()) {
+            result.push_back(i);
         }
     }
     return result;
@@ -24,11 +24,11 @@ std::vector<std::size_t> ancestors(const kinematic_tree& tree, std::size_t k) {
 
 /// M = L' D L from the last joint inward, which fills in nothing that branches leave zero (Featherstone 2008, ch. 6.5).
 /// On return the strict lower triangle of M holds L and the diagonal D.
-std::vector<ex> factorise(symbolic_model& model, const kinematic_tree& tree, std::vector<std::vector<ex>>& M) {
+std::vector<ex> factorise(symbolic_model& model, std::vector<std::vector<ex>>& M) {
     std::vector<ex> reciprocal(M.size());
     for (std::size_t k = M.size(); k-- > 0;) {
         reciprocal[k] = model.assign(fmt::format("Dinv{}", k + 1), GiNaC::pow(M[k][k], -1));
-        const std::vector<std::size_t> inward = ancestors(tree, k);
+        const std::vector<std::size_t> inward = coupled_with(M, k);
         for (const std::size_t i : inward) {
             const ex l = model.assign(fmt::format("L{}_{}", k + 1, i + 1), M[k][i] * reciprocal[k]);
             for (const std::size_t j : inward) {
@@ -58,18 +58,18 @@ symbolic_model forward_dynamics_model(const kinematic_tree& tree, const standard
     for (std::size_t i = 0; i < n; ++i) {
         const GiNaC::symbol tau =
             model.declare({fmt::format("tau{}", i + 1), symbol_role::torque, static_cast<int>(i)});
-        const ex effects = without_acceleration(effect_torque(parameters, values, tree.driven[i]), tree);
+        const ex effects = without_acceleration(effect_torque(parameters, values, static_cast<int>(i)), tree);
         x[i] = model.assign(fmt::format("b{}", i + 1), tau - bias[i] - effects);
     }
-    const std::vector<ex> reciprocal = factorise(model, tree, M);
+    const std::vector<ex> reciprocal = factorise(model, M);
     for (std::size_t k = n; k-- > 0;) {
-        for (const std::size_t i : ancestors(tree, k)) {
+        for (const std::size_t i : coupled_with(M, k)) {
             x[i] = model.assign(fmt::format("y{}_{}", i + 1, k + 1), x[i] - M[k][i] * x[k]);
         }
     }
     for (std::size_t k = 0; k < n; ++k) {
         ex value = x[k] * reciprocal[k];
-        for (const std::size_t i : ancestors(tree, k)) {
+        for (const std::size_t i : coupled_with(M, k)) {
             value -= M[k][i] * x[i];
         }
         x[k] = model.assign(fmt::format("qdd{}", k + 1), value);

@@ -50,9 +50,9 @@ std::vector<ex> joint_torques(symbolic_model& model, const kinematic_tree& tree,
         const wrench own = link_wrench(model, links[j], values, static_cast<int>(j), joint.label);
         const vector3 f = model.assign("f" + joint.label, add(own.force, carried[j].force));
         const vector3 n = model.assign("n" + joint.label, add(own.moment, carried[j].moment));
-        if (joint.coordinate >= 0) {
-            torque[static_cast<std::size_t>(joint.coordinate)] =
-                joint.rate * (joint.type == joint_type::revolute ? n[2] : f[2]);
+        for (const joint_rate& rate : joint.rates) {
+            torque[static_cast<std::size_t>(rate.coordinate)] +=
+                rate.factor * (joint.type == joint_type::revolute ? n[2] : f[2]);
         }
         if (joint.antecedent >= 0) {
             wrench& before = carried[static_cast<std::size_t>(joint.antecedent)];
@@ -78,7 +78,7 @@ symbolic_model torque_model(const kinematic_tree& tree, const standard_parameter
     const std::vector<ex> torque = joint_torques(model, tree, frames, values, inputs);
     for (int i = 0; i < tree.dof(); ++i) {
         const auto at = static_cast<std::size_t>(i);
-        const ex effects = with_effects ? effect_torque(parameters, values, tree.driven[at]) : ex(0);
+        const ex effects = with_effects ? effect_torque(parameters, values, i) : ex(0);
         const ex still = inputs.acceleration ? effects : without_acceleration(effects, tree);
         model.output(array, i, model.assign(array + std::to_string(i + 1), torque[at] + still));
     }

@@ -40,15 +40,23 @@ link_motion base_motion(const kinematic_tree& tree, const motion_inputs& inputs)
     return base;
 }
 
+/// Velocity or acceleration of a joint from those of its coordinates.
+ex of_joint(symbolic_model& model, const kinematic_joint& joint, const std::vector<GiNaC::symbol>& of_coordinates,
+            const std::string& name) {
+    ex sum = 0;
+    for (const joint_rate& rate : joint.rates) {
+        sum += rate.factor * of_coordinates[static_cast<std::size_t>(rate.coordinate)];
+    }
+    return joint.rates.size() > 1 ? model.assign(name + joint.label, sum) : sum;
+}
+
 /// One joint: Luh, Walker and Paul 1980 in the link's own frame (Khalil and Dombre 2002, eqs. 9.86-9.90).
 link_motion step(symbolic_model& model, const kinematic_tree& tree, std::size_t j, const link_frame& frame,
                  const link_motion& before, const motion_inputs& inputs) {
     const kinematic_joint& joint = tree.joints[j];
     const std::string& label = joint.label;
-    const bool moves = joint.coordinate >= 0;
-    const auto at = static_cast<std::size_t>(moves ? joint.coordinate : 0);
-    const ex rate = moves && inputs.velocity ? joint.rate * tree.qd[at] : ex(0);
-    const ex acceleration = moves && inputs.acceleration ? joint.rate * tree.qdd[at] : ex(0);
+    const ex rate = inputs.velocity ? of_joint(model, joint, tree.qd, "dq") : ex(0);
+    const ex acceleration = inputs.acceleration ? of_joint(model, joint, tree.qdd, "ddq") : ex(0);
     const vector3 W = frame.to_link("W" + label, before.W);
     const vector3 WP = frame.to_link("WP" + label, before.WP);
     const vector3 carried = model.assign("VC" + label, add(before.VP, times(before.U, frame.position())));

@@ -65,10 +65,51 @@ std::vector<composite_body> composites(symbolic_model& model, const kinematic_tr
     return bodies;
 }
 
+/// Adds the inertia h between two joints to the coordinates that move them: M = G' H G with the joint rates G.
+void add_coupled(const kinematic_joint& outer, const kinematic_joint& inner, const ex& h, bool same,
+                 std::vector<std::vector<ex>>& M) {
+    for (const joint_rate& i : outer.rates) {
+        for (const joint_rate& j : inner.rates) {
+            const auto row = static_cast<std::size_t>(std::max(i.coordinate, j.coordinate));
+            const auto column = static_cast<std::size_t>(std::min(i.coordinate, j.coordinate));
+            if (same && j.coordinate > i.coordinate) {
+                continue;  // the pair (j, i) stands for both halves of a diagonal block
+            }
+            const bool twice = !same && i.coordinate == j.coordinate;  // h and its transpose meet on the diagonal
+            M[row][column] += (twice ? 2 : 1) * i.factor * j.factor * h;
+        }
+    }
+}
+
+/// Adds to the lower triangle of M what acceleration of one joint takes at that joint and all inward of it.
+void add_joint_inertia(symbolic_model& model, const kinematic_tree& tree, const std::vector<link_frame>& frames,
+                       const std::vector<composite_body>& bodies, int accelerated, std::vector<std::vector<ex>>& M) {
+    const kinematic_joint& joint = tree.joints[static_cast<std::size_t>(accelerated)];
+    const composite_body& body = bodies[static_cast<std::size_t>(accelerated)];
+    const bool turns = joint.type == joint_type::revolute;
+    // Wrench that a unit acceleration of the joint takes, carried inward.
+    vector3 f = turns ? vector3{-body.S[1], body.S[0], 0} : vector3{0, 0, body.mass};
+    vector3 m = turns ? vector3{body.J.xz, body.J.yz, body.J.zz} : vector3{body.S[1], -body.S[0], 0};
+    for (int link = accelerated;;) {
+        const kinematic_joint& at = tree.joints[static_cast<std::size_t>(link)];
+        add_coupled(joint, at, at.type == joint_type::revolute ? m[2] : f[2], link == accelerated, M);
+        if (at.antecedent < 0) {
+            return;
+        }
+        const link_frame& frame = frames[static_cast<std::size_t>(link)];
+        const std::string suffix = fmt::format("{}_{}", joint.label, at.label);
+        const vector3 force = frame.to_antecedent("mf" + suffix, f);
+        const vector3 moment = frame.to_antecedent("mn" + suffix, m);
+        m = model.assign("mm" + suffix, add(moment, cross(frame.position(), force)));
+        f = force;
+        link = at.antecedent;
+    }
+}
+
 /// Contribution of the effects to d tau_i / d qdd_j.
 ex effect_inertia(const kinematic_tree& tree, const standard_parameters& parameters, const parameter_values& values,
                   int i, int j) {
-    const ex torque = effect_torque(parameters, values, tree.driven[static_cast<std::size_t>(i)]);
+    const ex torque = effect_torque(parameters, values, i);
     return torque.diff(tree.qdd[static_cast<std::size_t>(j)]);
 }
 
@@ -80,32 +121,12 @@ std::vector<std::vector<ex>> inertia_elements(symbolic_model& model, const kinem
     const std::vector<composite_body> bodies = composites(model, tree, frames, values);
     const auto n = static_cast<std::size_t>(tree.dof());
     std::vector<std::vector<ex>> M(n, std::vector<ex>(n, 0));
-    for (std::size_t i = 0; i < n; ++i) {
-        int link = tree.driven[i];
-        const kinematic_joint& joint = tree.joints[static_cast<std::size_t>(link)];
-        const composite_body& body = bodies[static_cast<std::size_t>(link)];
-        const bool turns = joint.type == joint_type::revolute;
-        // Wrench that a unit acceleration of joint i takes, carried inward.
-        vector3 f =
-            turns ? vector3{-joint.rate * body.S[1], joint.rate * body.S[0], 0} : vector3{0, 0, joint.rate * body.mass};
-        vector3 m = turns ? vector3{joint.rate * body.J.xz, joint.rate * body.J.yz, joint.rate * body.J.zz}
-                          : vector3{joint.rate * body.S[1], -joint.rate * body.S[0], 0};
-        for (; link >= 0; link = tree.joints[static_cast<std::size_t>(link)].antecedent) {
-            const kinematic_joint& at = tree.joints[static_cast<std::size_t>(link)];
-            if (at.coordinate >= 0) {
-                const auto j = static_cast<std::size_t>(at.coordinate);
-                M[i][j] = at.rate * (at.type == joint_type::revolute ? m[2] : f[2]);
-            }
-            if (at.antecedent < 0) {
-                break;
-            }
-            const link_frame& frame = frames[static_cast<std::size_t>(link)];
-            const std::string suffix = fmt::format("{}_{}", i + 1, at.label);
-            const vector3 force = frame.to_antecedent("mf" + suffix, f);
-            const vector3 moment = frame.to_antecedent("mn" + suffix, m);
-            m = model.assign("mm" + suffix, add(moment, cross(frame.position(), force)));
-            f = force;
+    for (std::size_t i = 0; i < tree.joints.size(); ++i) {
+        if (!tree.joints[i].rates.empty()) {
+            add_joint_inertia(model, tree, frames, bodies, static_cast<int>(i), M);
         }
+    }
+    for (std::size_t i = 0; i < n; ++i) {
         for (std::size_t j = 0; j <= i; ++j) {
             const ex effects = effect_inertia(tree, parameters, values, static_cast<int>(i), static_cast<int>(j));
             M[i][j] = model.assign(fmt::format("M{}_{}", i + 1, j + 1), M[i][j] + effects);

@@ -10,6 +10,11 @@ parameter_values::parameter_values(symbolic_model& model, const standard_paramet
     }
 }
 
+GiNaC::ex parameter_values::inertial(int link, parameter_kind kind) const {
+    const std::size_t p = parameters_.index(link, kind);
+    return p < value_.size() ? value_[p] : GiNaC::ex(0);
+}
+
 symmetric3 parameter_values::inertia(int link) const {
     const auto of = [this, link](parameter_kind kind) { return inertial(link, kind); };
     return {of(parameter_kind::XX), of(parameter_kind::XY), of(parameter_kind::XZ),
@@ -32,10 +37,10 @@ void declare_signals(symbolic_model& model, const standard_parameters& parameter
     }
 }
 
-GiNaC::ex effect_torque(const standard_parameters& parameters, const parameter_values& values, int joint) {
+GiNaC::ex effect_torque(const standard_parameters& parameters, const parameter_values& values, int coordinate) {
     GiNaC::ex torque = 0;
     for (std::size_t p = 0; p < parameters.all.size(); ++p) {
-        torque += parameters.all[p].column_at(joint) * values[p];
+        torque += parameters.all[p].column_at(coordinate) * values[p];
     }
     return torque;
 }

@@ -15,7 +15,8 @@ class parameter_values {
                      const parameter_selection& selection);
 
     const GiNaC::ex& operator[](std::size_t standard) const { return value_[standard]; }
-    GiNaC::ex inertial(int link, parameter_kind kind) const { return value_[parameters_.index(link, kind)]; }
+    /// Zero for a massless link.
+    GiNaC::ex inertial(int link, parameter_kind kind) const;
     symmetric3 inertia(int link) const;
     vector3 first_moments(int link) const;
 
@@ -27,7 +28,7 @@ class parameter_values {
 /// Declares t and the temperatures if some effect uses them.
 void declare_signals(symbolic_model& model, const standard_parameters& parameters);
 
-/// Torque of all effects at a joint.
-GiNaC::ex effect_torque(const standard_parameters& parameters, const parameter_values& values, int joint);
+/// Torque of all effects at a coordinate.
+GiNaC::ex effect_torque(const standard_parameters& parameters, const parameter_values& values, int coordinate);
 
 }  // namespace idim::generator

@@ -18,10 +18,11 @@ struct carried_axis {
     vector3 m;  ///< moment arm: e x (from the joint's origin to the link's), or the axis of a prismatic joint
 };
 
-carried_axis own_axis(const kinematic_joint& joint) {
-    const vector3 z = {0, 0, joint.rate};
-    const vector3 zero = {0, 0, 0};
-    return joint.type == joint_type::revolute ? carried_axis{z, zero} : carried_axis{zero, z};
+/// Adds the joint's own axis, scaled by the rate at which the coordinate moves the joint.
+void add_own_axis(symbolic_model& model, const kinematic_joint& joint, const joint_rate& rate, carried_axis& axis) {
+    vector3& part = joint.type == joint_type::revolute ? axis.e : axis.m;
+    const char* const name = joint.type == joint_type::revolute ? "eo" : "mo";
+    part[2] = model.assign(fmt::format("{}{}_{}_3", name, rate.coordinate + 1, joint.label), part[2] + rate.factor);
 }
 
 carried_axis carry(symbolic_model& model, const link_frame& frame, const carried_axis& axis,
@@ -94,8 +95,8 @@ class regressor_builder {
                 }
             }
         }
-        if (joint.coordinate >= 0) {
-            axes[static_cast<std::size_t>(joint.coordinate)] = own_axis(joint);
+        for (const joint_rate& rate : joint.rates) {
+            add_own_axis(model_, joint, rate, axes[static_cast<std::size_t>(rate.coordinate)]);
         }
         axes_.push_back(axes);
     }
@@ -110,7 +111,7 @@ class regressor_builder {
             }
             const ex value = parameter.kind != parameter_kind::effect
                                  ? column(model_, links_[static_cast<std::size_t>(link)], axis, parameter.kind, label)
-                                 : parameter.column_at(tree_.driven[static_cast<std::size_t>(row)]);
+                                 : parameter.column_at(row);
             const std::string name = fmt::format("W{}_{}", row + 1, selection_.names[k]);
             model_.output("W", row * static_cast<int>(selection_.kept.size()) + static_cast<int>(k),
                           model_.assign(name, value));

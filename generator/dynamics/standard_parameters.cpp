@@ -71,21 +71,34 @@ class effect_reader {
         named_values names = tree_.constant_names;
         names["t"] = parameters_.time;
         add_joint(names, joint, "");
-        names["temp"] = parameters_.temperature[coordinate(joint)];
+        if (const kinematic_joint& at = at_index(joint); at.coordinate >= 0) {
+            names["temp"] = parameters_.temperature[static_cast<std::size_t>(at.coordinate)];
+        }
         if (from >= 0) {
             add_joint(names, from, "_from");
         }
         return names;
     }
 
-    std::size_t coordinate(int joint) const {
-        return static_cast<std::size_t>(tree_.joints[static_cast<std::size_t>(joint)].coordinate);
+    const kinematic_joint& at_index(int joint) const { return tree_.joints[static_cast<std::size_t>(joint)]; }
+
+    /// Where an effect at a joint acts: on the joint's own coordinate, or else on all that move the joint.
+    static std::vector<joint_rate> acts_on(const kinematic_joint& joint) {
+        return joint.coordinate >= 0 ? std::vector<joint_rate>{{joint.coordinate, 1}} : joint.rates;
     }
 
-    void add_joint(named_values& names, int joint, const std::string& suffix) const {
-        names["q" + suffix] = tree_.q[coordinate(joint)];
-        names["qd" + suffix] = tree_.qd[coordinate(joint)];
-        names["qdd" + suffix] = tree_.qdd[coordinate(joint)];
+    void add_joint(named_values& names, int index, const std::string& suffix) const {
+        const kinematic_joint& joint = at_index(index);
+        const auto sum = [&joint](const std::vector<GiNaC::symbol>& symbols) {
+            ex value = 0;
+            for (const joint_rate& rate : acts_on(joint)) {
+                value += rate.factor * symbols[static_cast<std::size_t>(rate.coordinate)];
+            }
+            return value;
+        };
+        names["q" + suffix] = joint.coordinate >= 0 ? sum(tree_.q) : joint.variable;
+        names["qd" + suffix] = sum(tree_.qd);
+        names["qdd" + suffix] = sum(tree_.qdd);
     }
 
     ex shape_value(const shape_coefficient& shape) const {
@@ -124,7 +137,9 @@ class effect_reader {
             check_free_of(column, linear);
             check_affine_in_acceleration(column);
             rest -= linear[k] * column;
-            parameters[k].columns.emplace_back(joint, column);
+            for (const joint_rate& rate : acts_on(at_index(joint))) {
+                parameters[k].columns.emplace_back(rate.coordinate, (rate.factor * column).expand());
+            }
         }
         if (!rest.expand().is_zero()) {
             throw input_error(
@@ -159,10 +174,10 @@ class effect_reader {
     }
 
     standard_parameter named(const linear_coefficient& coefficient, int joint, int from) const {
-        const kinematic_joint& at = tree_.joints[static_cast<std::size_t>(joint)];
+        const kinematic_joint& at = at_index(joint);
         std::string name = coefficient.name + at.label;
         if (from >= 0) {
-            name += "_" + tree_.joints[static_cast<std::size_t>(from)].label;
+            name += "_" + at_index(from).label;
         }
         return {name, parameter_kind::effect, joint, unit_for(at, coefficient.unit), coefficient.min, {}};
     }
@@ -183,10 +198,10 @@ void check_unique(const std::vector<standard_parameter>& parameters, const std::
 
 }  // namespace
 
-ex standard_parameter::column_at(int at_joint) const {
+ex standard_parameter::column_at(int coordinate) const {
     ex sum = 0;
-    for (const auto& [acting_joint, column] : columns) {
-        sum += acting_joint == at_joint ? column : ex(0);
+    for (const auto& [acted_on, column] : columns) {
+        sum += acted_on == coordinate ? column : ex(0);
     }
     return sum;
 }
@@ -206,7 +221,7 @@ standard_parameters list_parameters(const kinematic_tree& tree, const std::vecto
     }
     std::vector<std::vector<standard_parameter>> of_joint(tree.joints.size());
     for (std::size_t j = 0; j < tree.joints.size(); ++j) {
-        for (std::size_t k = 0; k < inertial_names.size(); ++k) {
+        for (std::size_t k = 0; k < inertial_names.size() && !tree.joints[j].massless; ++k) {
             of_joint[j].push_back({inertial_names[k] + tree.joints[j].label,
                                    static_cast<parameter_kind>(k),
                                    static_cast<int>(j),

@@ -19,8 +19,11 @@ using json = nlohmann::ordered_json;
 constexpr int format = 2;
 
 json joint_json(const manifest_joint& joint) {
-    json result = {
-        {"name", joint.name}, {"type", joint.type}, {"antecedent", joint.antecedent}, {"row", json::object()}};
+    json result = {{"name", joint.name},
+                   {"type", joint.type},
+                   {"antecedent", joint.antecedent},
+                   {"driven", joint.driven},
+                   {"row", json::object()}};
     for (const auto& [name, entry] : joint.row) {
         result["row"][name] = entry;
     }
@@ -50,12 +53,10 @@ json effect_json(const manifest_effect& effect) {
 }
 
 json to_json(const manifest& content) {
-    json result = {{"generator", content.generator},   {"format", format},
-                   {"interface", IDIM_MODEL_ABI},      {"robot", content.robot},
-                   {"input_hash", content.input_hash}, {"files", content.files},
-                   {"gravity", content.gravity},       {"constants", json::object()},
-                   {"joints", json::array()},          {"effects", json::array()},
-                   {"operations", json::object()}};
+    json result = {{"generator", content.generator}, {"format", format},           {"interface", IDIM_MODEL_ABI},
+                   {"robot", content.robot},         {"target", content.target},   {"input_hash", content.input_hash},
+                   {"files", content.files},         {"gravity", content.gravity}, {"constants", json::object()},
+                   {"joints", json::array()},        {"effects", json::array()},   {"operations", json::object()}};
     for (const auto& [name, value] : content.constants) {
         result["constants"][name] = value;
     }
@@ -140,6 +141,12 @@ class json_entry {
         }
         return value_.get<double>();
     }
+    bool flag() const {
+        if (!value_.is_boolean()) {
+            reject("true or false");
+        }
+        return value_.get<bool>();
+    }
     int count() const {
         constexpr double most = 1e9;
         if (!value_.is_number_integer() || value_.get<double>() < 0.0 || value_.get<double>() > most) {
@@ -182,6 +189,7 @@ manifest_joint read_joint(const json_entry& entry) {
         entry.at("type").reject("revolute, prismatic or fixed");
     }
     joint.antecedent = entry.at("antecedent").text();
+    joint.driven = entry.at("driven").flag();
     for (const auto& [name, value] : entry.at("row").entries()) {
         joint.row.emplace_back(name, value.text());
     }
@@ -250,6 +258,7 @@ manifest read_manifest(const std::string& text, const std::string& file) {
     manifest result;
     result.generator = root.at("generator").text();
     result.robot = root.at("robot").text();
+    result.target = root.at("target").text();
     result.input_hash = root.at("input_hash").text();
     result.files = root.at("files").texts();
     result.gravity = root.at("gravity").texts();

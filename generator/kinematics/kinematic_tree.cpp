@@ -68,6 +68,7 @@ class tree_reader {
         for (std::size_t i = 0; i < 3; ++i) {
             tree_.gravity[i] = finite(parse_expression(robot_.gravity[i], names_), robot_.gravity[i].where);
         }
+        number_coordinates();
         for (const joint_description& joint : robot_.joints) {
             read_joint(joint);
         }
@@ -76,6 +77,28 @@ class tree_reader {
     }
 
   private:
+    /// One coordinate for each joint that names its own; others may name it as q_<joint>.
+    void number_coordinates() {
+        for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
+            if (!has_own_coordinate(robot_.joints[j])) {
+                continue;
+            }
+            const std::string name = "q_" + robot_.joints[j].name;
+            if (names_.count(name) != 0) {
+                throw input_error(robot_.joints[j].where,
+                                  fmt::format("constant {} has the name of this joint's coordinate, expected another "
+                                              "name for one of them",
+                                              name));
+            }
+            const std::size_t number = tree_.driven.size() + 1;
+            tree_.driven.push_back(static_cast<int>(j));
+            tree_.q.emplace_back(fmt::format("q{}", number));
+            tree_.qd.emplace_back(fmt::format("qd{}", number));
+            tree_.qdd.emplace_back(fmt::format("qdd{}", number));
+            coordinates_[name] = tree_.q.back();
+        }
+    }
+
     void read_constant(const constant_description& constant) {
         const ex value = parse_expression(constant.value, names_).subs(values_);
         const GiNaC::numeric number = constant_value(value, constant.value.where);
@@ -168,53 +191,78 @@ class tree_reader {
             joint.theta = constant_angle(source.theta);
             joint.r = length(source.r);
         }
+        joint.massless = source.massless;
         joint.label = joint.coordinate >= 0 ? std::to_string(joint.coordinate + 1) : "_" + joint.name;
         tree_.joints.push_back(joint);
     }
 
-    /// Splits an expression that must read rate*q + offset, both constant.
-    std::pair<ex, ex> linear_in_q(const expression_text& text) {
-        const int number = static_cast<int>(tree_.driven.size()) + 1;
-        const GiNaC::symbol q(fmt::format("q{}", number));
+    /// Splits the variable of a joint into its rates, which it stores, and its constant part, which it returns.
+    ex linear_in_coordinates(kinematic_joint& joint, const expression_text& text) {
+        const auto own = std::find(tree_.driven.begin(), tree_.driven.end(), static_cast<int>(tree_.joints.size()));
         named_values names = names_;
-        names["q"] = q;
+        names.insert(coordinates_.begin(), coordinates_.end());
+        if (own != tree_.driven.end()) {
+            joint.coordinate = static_cast<int>(own - tree_.driven.begin());
+            names["q"] = tree_.q[static_cast<std::size_t>(joint.coordinate)];
+        }
         const ex value = parse_expression(text, names);
-        const ex rate = value.diff(q);
-        if (rate.is_zero() || rate.has(q)) {
+        GiNaC::exmap at_zero;
+        for (const GiNaC::symbol& q : tree_.q) {
+            at_zero[q] = 0;
+        }
+        const ex offset = value.subs(at_zero).expand();
+        ex rest = value - offset;
+        for (std::size_t k = 0; k < tree_.q.size(); ++k) {
+            const ex factor = value.diff(tree_.q[k]);
+            if (!factor.is_zero()) {
+                joint.rates.push_back({static_cast<int>(k), factor});
+                rest -= factor * tree_.q[k];
+            }
+        }
+        check_linear(joint, rest.expand(), text);
+        check_finite(offset, text.where);
+        for (joint_rate& rate : joint.rates) {
+            rate.factor = finite(rate.factor, text.where);
+            joint.variable += rate.factor * tree_.q[static_cast<std::size_t>(rate.coordinate)];
+        }
+        return offset;
+    }
+
+    void check_linear(const kinematic_joint& joint, const ex& rest, const expression_text& text) const {
+        const auto is_constant = [this](const joint_rate& rate) {
+            return std::none_of(tree_.q.begin(), tree_.q.end(), [&rate](const ex& q) { return rate.factor.has(q); });
+        };
+        const bool moves_itself = joint.coordinate < 0 ||
+                                  std::any_of(joint.rates.begin(), joint.rates.end(), [&joint](const joint_rate& rate) {
+                                      return rate.coordinate == joint.coordinate;
+                                  });
+        if (joint.rates.empty() || !moves_itself || !rest.is_zero() ||
+            !std::all_of(joint.rates.begin(), joint.rates.end(), is_constant)) {
             throw input_error(text.where,
                               fmt::format("\"{}\" given, expected a constant times q plus a constant, such as \"q\" or "
-                                          "\"q + pi/2\"",
+                                          "\"q + pi/2\", or a linear function of q and other joints' q_<joint>",
                                           text.text));
         }
-        const ex offset = value.subs(q == 0).expand();
-        check_finite(offset, text.where);
-        tree_.driven.push_back(static_cast<int>(tree_.joints.size()));
-        tree_.q.push_back(q);
-        tree_.qd.emplace_back(fmt::format("qd{}", number));
-        tree_.qdd.emplace_back(fmt::format("qdd{}", number));
-        return {finite(rate, text.where), offset};
     }
 
     void read_revolute(kinematic_joint& joint, const expression_text& text) {
-        const auto [rate, offset] = linear_in_q(text);
-        joint.coordinate = static_cast<int>(tree_.driven.size()) - 1;
-        joint.rate = rate;
+        const ex offset = linear_in_coordinates(joint, text);
         const int quarters = quarter_turns(offset.subs(values_));
-        joint.angle = rate * tree_.q.back() + (quarters >= 0 ? ex(0) : finite(offset, text.where));
+        joint.angle = joint.variable + (quarters >= 0 ? ex(0) : finite(offset, text.where));
         joint.theta = turned({GiNaC::cos(joint.angle), GiNaC::sin(joint.angle)}, quarters);
+        joint.variable += finite(offset, text.where);
     }
 
     void read_prismatic(kinematic_joint& joint, const expression_text& text) {
-        const auto [rate, exact_offset] = linear_in_q(text);
-        const ex offset = finite(exact_offset, text.where);
-        joint.coordinate = static_cast<int>(tree_.driven.size()) - 1;
-        joint.rate = rate;
-        joint.r = rate * tree_.q.back() + (is_number(offset) ? literal(offset) : offset);
+        const ex offset = finite(linear_in_coordinates(joint, text), text.where);
+        joint.r = joint.variable + (is_number(offset) ? literal(offset) : offset);
+        joint.variable = joint.r;
     }
 
     const robot_description& robot_;
     kinematic_tree tree_;
     named_values names_;
+    named_values coordinates_;  ///< q_<joint>
     GiNaC::exmap values_;
     std::vector<ex> angles_;
     std::vector<angle_pair> angle_pairs_;

@@ -28,19 +28,27 @@ struct kinematic_constant {
     bool is_sine = false;
 };
 
+/// Velocity of a joint per unit velocity of a coordinate.
+struct joint_rate {
+    int coordinate = 0;
+    GiNaC::ex factor = 1;  ///< without coordinates
+};
+
 /// One joint with its transform; the frame of the link in that of its antecedent is
 /// Rot(z,gamma) Trans(z,b) Rot(x,alpha) Trans(x,d) Rot(z,theta) Trans(z,r) (Khalil and Kleinfinger 1986).
 struct kinematic_joint {
     std::string name;
     joint_type type = joint_type::revolute;
     int antecedent = -1;
-    int coordinate = -1;  ///< index among the driven joints, -1 if fixed
-    std::string label;    ///< suffix of every symbol of this link: number of the coordinate ("2"), or "_name" if fixed
+    bool massless = false;  ///< its link has no inertial parameters
+    int coordinate = -1;    ///< the joint's own, -1 if it is fixed or moves with other joints
+    std::string label;      ///< suffix of every symbol of this link: number of its own coordinate ("2"), or "_name"
     angle_pair gamma, alpha;
     angle_pair theta;     ///< for a revolute joint in terms of the leaves cos(angle), sin(angle)
-    GiNaC::ex angle = 0;  ///< revolute: the argument of these leaves, rate*q plus what is not a multiple of pi/2
+    GiNaC::ex angle = 0;  ///< revolute: the argument of these leaves, theta less what is a multiple of pi/2
     GiNaC::ex b = 0, d = 0, r = 0;
-    GiNaC::ex rate = 1;  ///< d(theta)/dq or d(r)/dq
+    std::vector<joint_rate> rates;  ///< of theta or r, by ascending coordinate; empty if fixed
+    GiNaC::ex variable = 0;         ///< theta or r of a joint that moves
 
     /// Origin of the link frame in the frame of the antecedent [m].
     std::array<GiNaC::ex, 3> position() const;
@@ -62,7 +70,8 @@ struct kinematic_tree {
 };
 
 /// Reads the expressions of a description. Throws input_error where theta of a revolute or r of a prismatic joint is
-/// not a constant times q plus a constant, or where another entry depends on q.
+/// not a linear function of q and the q_<joint> of joints that have a coordinate, or where another entry depends on
+/// these.
 kinematic_tree build_kinematic_tree(const robot_description& robot);
 
 }  // namespace idim::generator

@@ -1,6 +1,5 @@
 #include "compared_model.hpp"
 
-#include <algorithm>
 #include <filesystem>
 
 #include "emit/manifest_file.hpp"
@@ -17,13 +16,6 @@ namespace {
 using generator::model_folder;
 using generator::rendered_file;
 
-constexpr const char* interface_name = "model_interface.cpp";
-
-bool has_interface(const model_folder& model) {
-    return std::any_of(model.files.begin(), model.files.end(),
-                       [](const rendered_file& file) { return file.name == interface_name; });
-}
-
 compared_model compile(const std::string& path, const model_folder& model) {
     compiled_model compiled = compile_files(model.files, model.content.input_hash);
     generator::model_summary summary = generator::summarise(model.content, compiled.interface(), path);
@@ -32,8 +24,8 @@ compared_model compile(const std::string& path, const model_folder& model) {
 
 compared_model load_folder(const std::string& path) {
     const model_folder model = generator::read_model(path);
-    if (!has_interface(model)) {
-        throw input_error({path, 0, ""}, std::string("has no ") + interface_name + ", expected code of the C++ target");
+    if (model.content.target != "cpp") {
+        throw input_error({path, 0, "target"}, "code of " + model.content.target + ", expected that of cpp");
     }
     try {
         return compile(path, model);

@@ -33,7 +33,7 @@ std::vector<joint_range> ranges_of(const generator::manifest& before, const gene
     std::vector<joint_range> result;
     for (const generator::manifest_joint& joint : after.joints) {
         for (const generator::manifest_joint& old : before.joints) {
-            if (joint.type != "fixed" && joint.name == old.name) {
+            if (joint.driven && joint.name == old.name) {
                 result.push_back(range_of(joint, old));
             }
         }

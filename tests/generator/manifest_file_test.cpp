@@ -17,13 +17,14 @@ manifest full_manifest() {
     manifest content;
     content.generator = "idim 1.2.3";
     content.robot = "arm";
+    content.target = "cpp";
     content.input_hash = "0123456789abcdef";
     content.files = {"regressor.hpp", "model_interface.cpp"};
     content.gravity = {"0", "0", "-9.81"};
     content.constants = {{"L", 0.1}, {"a", -1e-300}};
-    content.joints = {{"j1", "revolute", "base", {{"theta", "q + pi/2"}}, std::pair(-1.5, 2.5), 3.0, 40.0, 0.25},
-                      {"j2", "prismatic", "j1", {{"alpha", "-pi/2"}, {"r", "q"}}, {}, {}, {}, {}},
-                      {"tool", "fixed", "j2", {}, {}, {}, {}, {}}};
+    content.joints = {{"j1", "revolute", "base", true, {{"theta", "q + pi/2"}}, std::pair(-1.5, 2.5), 3.0, 40.0, 0.25},
+                      {"j2", "prismatic", "j1", true, {{"alpha", "-pi/2"}, {"r", "q"}}, {}, {}, {}, {}},
+                      {"tool", "fixed", "j2", false, {}, {}, {}, {}, {}}};
     content.effects = {{"stribeck_friction", {"j1"}, {}, {{"vs", 0.03}}, "Fs*exp(-(qd/vs)^2)*sign(qd)"},
                        {"joint_coupling", {"j1", "j2"}, {"j2", "j1"}, {}, "Iac*qdd_from"}};
     content.operations = {{"regressor", {14, 8, 0, 4}}, {"regroup", {1, 3, 0, 0}}};
@@ -60,6 +61,8 @@ const bad_manifest bad_manifests[] = {
     {"WithTooManyOperations", "/operations/regressor/mul", "5000000000", "operations.regressor.mul: expected a count"},
     {"WithAJointThatIsNoMap", "/joints/1", "\"j2\"", "joints.2: expected a map"},
     {"WithAnUnknownJointType", "/joints/0/type", "\"screw\"", "joints.1.type: expected revolute, prismatic or fixed"},
+    {"WithoutTarget", "/target", "", "target: expected an entry"},
+    {"WithAJointThatIsHalfDriven", "/joints/0/driven", "0.5", "joints.1.driven: expected true or false"},
     {"WithOneLimit", "/joints/0/position", "[1]", "joints.1.position: expected two numbers"},
     {"WithLimitsTheOtherWayRound", "/joints/0/position", "[1, 0]", "joints.1.position: expected two numbers"},
     {"WithATextAsLimit", "/joints/0/velocity", "\"fast\"", "joints.1.velocity: expected a number"},
@@ -85,7 +88,7 @@ TEST(ManifestFile, ReadsBackWhatWasWritten) {
 TEST(ManifestFile, OneEntryMoreIsOneLineMore) {
     const std::string text = to_json_text(full_manifest());
     manifest more = full_manifest();
-    more.joints.insert(more.joints.begin() + 1, {"j1b", "revolute", "j1", {}, {}, {}, {}, {}});
+    more.joints.insert(more.joints.begin() + 1, {"j1b", "revolute", "j1", false, {}, {}, {}, {}, {}});
     const std::string longer = to_json_text(more);
     const auto lines = [](const std::string& t) { return std::count(t.begin(), t.end(), '\n'); };
     EXPECT_EQ(lines(longer), lines(text) + 1);

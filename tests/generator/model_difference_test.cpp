@@ -16,8 +16,8 @@ model_summary two_links() {
     model.content.robot = "arm";
     model.content.gravity = {"0", "0", "0"};
     model.content.constants = {{"L", 0.5}};
-    model.content.joints = {{"j1", "revolute", "base", {{"theta", "q"}}, {}, {}, {}, {}},
-                            {"j2", "revolute", "j1", {{"d", "L"}, {"theta", "q"}}, {}, {}, {}, {}}};
+    model.content.joints = {{"j1", "revolute", "base", true, {{"theta", "q"}}, {}, {}, {}, {}},
+                            {"j2", "revolute", "j1", true, {{"d", "L"}, {"theta", "q"}}, {}, {}, {}, {}}};
     model.content.effects = {{"rotor_inertia", {"j2"}, {}, {}, "Ia*qdd"},
                              {"viscous_friction", {"j1"}, {}, {}, "Fv*qd"}};
     model.content.operations = {{"regressor", {3, 2, 0, 2}}};
@@ -133,7 +133,7 @@ TEST(ModelDifference, NamesTheEntriesOfAJointThatChanged) {
     model_summary after = two_links();
     after.content.joints[1].row = {{"alpha", "pi/2"}, {"d", "L"}, {"theta", "q"}};
     after.content.joints[1].position = {-1.0, 2.0};
-    after.content.joints.push_back({"tool", "fixed", "j2", {}, {}, {}, {}, {}});
+    after.content.joints.push_back({"tool", "fixed", "j2", false, {}, {}, {}, {}, {}});
     after.content.gravity = {"0", "0", "-9.81"};
     const model_difference difference = compare(two_links(), after);
     EXPECT_EQ(texts(difference.joints), (names{"j2|alpha|0|pi/2", "j2|position limits||[-1, 2]", "tool|||fixed"}));
@@ -146,7 +146,7 @@ TEST(ModelDifference, TorquesOfOtherJointsAreNotComparable) {
         return compare(two_links(), after).not_comparable.value_or("comparable");
     };
     model_summary more = two_links();
-    more.content.joints.push_back({"j3", "revolute", "j2", {}, {}, {}, {}, {}});
+    more.content.joints.push_back({"j3", "revolute", "j2", true, {}, {}, {}, {}, {}});
     EXPECT_EQ(reason(more), "2 driven joints before, 3 after");
     model_summary renamed = two_links();
     renamed.content.joints[1].name = "elbow";
@@ -197,7 +197,8 @@ idim_model_interface small_interface() {
 
 TEST(ModelSummary, KeepsWhatIsRegroupedByNumbers) {
     manifest content;
-    content.joints = {{"j1", "revolute", "base", {}, {}, {}, {}, {}}, {"tipR", "fixed", "j1", {}, {}, {}, {}, {}}};
+    content.joints = {{"j1", "revolute", "base", true, {}, {}, {}, {}, {}},
+                      {"tipR", "fixed", "j1", false, {}, {}, {}, {}, {}}};
     const model_summary summary = summarise(content, small_interface(), "folder");
     ASSERT_EQ(summary.base.size(), 2u);
     EXPECT_EQ(summary.base[0].kept, "ZZ1");
@@ -208,7 +209,7 @@ TEST(ModelSummary, KeepsWhatIsRegroupedByNumbers) {
 
 TEST(ModelSummary, CodeOfAnotherRobotThanTheManifestIsRefused) {
     manifest content;
-    content.joints = {{"elbow", "revolute", "base", {}, {}, {}, {}, {}}};
+    content.joints = {{"elbow", "revolute", "base", true, {}, {}, {}, {}, {}}};
     EXPECT_THROW(summarise(content, small_interface(), "folder"), input_error);
 }
 

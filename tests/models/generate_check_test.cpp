@@ -64,6 +64,16 @@ TEST_F(GenerateCheck, ListsFilesAndShowsWhatWouldChange) {
     EXPECT_EQ(result.out.find("regressor.hpp\n+++"), std::string::npos) << "a file that is current is not shown";
 }
 
+TEST_F(GenerateCheck, KnowsTheTarget) {
+    const std::string c = (folder_.path() / "c").string();
+    ASSERT_EQ(run_idim({"generate", robot_file("emps"), "--target", "c", "-o", c}).status, 0);
+    EXPECT_EQ(run_idim({"generate", robot_file("emps"), "--target", "c", "-o", c, "--check"}).status, 0);
+    const command_result other = run_idim({"generate", robot_file("emps"), "-o", c, "--check"});
+    EXPECT_EQ(other.status, 1);
+    EXPECT_NE(other.out.find("/emps.h: left over\n"), std::string::npos) << other.out;
+    EXPECT_EQ(run_idim({"generate", robot_file("emps"), "--target", "fortran", "-o", c}).status, 2);
+}
+
 TEST_F(GenerateCheck, JsonHasTheFilesAndTheDiff) {
     spoil();
     const std::string file = (folder_.path() / "check.json").string();
