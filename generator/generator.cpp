@@ -68,6 +68,7 @@ rendered_file manifest(const generated_model& model) {
     nlohmann::ordered_json json;
     json["generator"] = std::string("idim ") + version();
     json["robot"] = model.robot;
+    json["target"] = model.target;
     json["input_hash"] = model.input_hash;
     json["files"] = nlohmann::ordered_json::array();
     for (const rendered_file& file : model.files) {
@@ -97,18 +98,21 @@ base_report find_base(const std::string& robot_file, const std::string& template
     return report(load(robot_file, templates));
 }
 
-generated_model generate(const std::string& robot_file, const std::string& templates) {
+generated_model generate(const std::string& robot_file, const std::string& templates,
+                         const generation_options& options) {
     const auto start = std::chrono::steady_clock::now();
     const robot_model model = load(robot_file, templates);
     generated_model result;
     result.robot = model.description.name;
+    result.target = options.target;
     result.base = report(model);
     result.input_hash = hash_inputs(model);
     model_operations counts;
-    const template_context context = build_context(model, version(), result.input_hash, counts);
+    const template_context context =
+        build_context(model, {version(), result.input_hash}, languages_of(options.target), counts);
     result.joints = context.joints;
     result.operations = table(counts);
-    result.files = render_cpp(context, templates + "/cpp");
+    result.files = render(context, templates + "/" + options.target);
     result.files.push_back(manifest(result));
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     result.rigid_operations = table(count_rigid(load(robot_file, templates, true)));

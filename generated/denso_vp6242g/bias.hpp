@@ -8,18 +8,19 @@
 
 namespace idim_models::denso_vp6242g {
 
-/// Torque at zero acceleration: centrifugal, Coriolis, gravity, friction and other effects.
+/// Torque at zero acceleration: centrifugal, Coriolis, gravity, friction and other effects. Cosines and sines are given.
 ///   q [6] joint positions [rad or m]
+///   sc [10] cosines and sines, as sines gives them
 ///   qd [6] joint velocities [rad/s or m/s]
 ///   chi [48] base parameters, in the order of base_parameter_names
 ///   N [6] joint torques or forces [N*m or N]
 /// Scalar: float, double or any type with these operations. No heap, no exceptions.
 template <class Scalar>
-void bias(const Scalar* q,
-          const Scalar* qd,
-          const Scalar* chi,
-          Scalar* N) {
-    using std::cos, std::sin;
+void bias_sc([[maybe_unused]] const Scalar* q,
+             const Scalar* sc,
+             const Scalar* qd,
+             const Scalar* chi,
+             Scalar* N) {
     const Scalar& Fv1 = chi[1];
     const Scalar& Fc1 = chi[2];
     const Scalar& XX2R = chi[3];
@@ -67,16 +68,16 @@ void bias(const Scalar* q,
     const Scalar& MY6 = chi[45];
     const Scalar& Fv6 = chi[46];
     const Scalar& Fc6 = chi[47];
-    const Scalar C2n = sin(q[1]);
-    const Scalar S2 = cos(q[1]);
-    const Scalar C3 = sin(q[2]);
-    const Scalar S3n = cos(q[2]);
-    const Scalar C4 = cos(q[3]);
-    const Scalar S4 = sin(q[3]);
-    const Scalar C5 = cos(q[4]);
-    const Scalar S5 = sin(q[4]);
-    const Scalar C6 = cos(q[5]);
-    const Scalar S6 = sin(q[5]);
+    const Scalar& C2n = sc[0];
+    const Scalar& S2 = sc[1];
+    const Scalar& C3 = sc[2];
+    const Scalar& S3n = sc[3];
+    const Scalar& C4 = sc[4];
+    const Scalar& S4 = sc[5];
+    const Scalar& C5 = sc[6];
+    const Scalar& S5 = sc[7];
+    const Scalar& C6 = sc[8];
+    const Scalar& S6 = sc[9];
     const Scalar W2_1 = qd[0] * S2;
     const Scalar W2_2n = qd[0] * C2n;
     const Scalar VP2_1 = Scalar(9.81) * S2;
@@ -295,6 +296,32 @@ void bias(const Scalar* q,
     N[3] = N4;
     N[4] = N5;
     N[5] = N6;
+}
+
+/// Torque at zero acceleration: centrifugal, Coriolis, gravity, friction and other effects.
+///   q [6] joint positions [rad or m]
+///   qd [6] joint velocities [rad/s or m/s]
+///   chi [48] base parameters, in the order of base_parameter_names
+///   N [6] joint torques or forces [N*m or N]
+/// Scalar: float, double or any type with these operations. No heap, no exceptions.
+template <class Scalar>
+void bias(const Scalar* q,
+          const Scalar* qd,
+          const Scalar* chi,
+          Scalar* N) {
+    using std::cos, std::sin;
+    Scalar sc[10];
+    sc[0] = sin(q[1]);
+    sc[1] = cos(q[1]);
+    sc[2] = sin(q[2]);
+    sc[3] = cos(q[2]);
+    sc[4] = cos(q[3]);
+    sc[5] = sin(q[3]);
+    sc[6] = cos(q[4]);
+    sc[7] = sin(q[4]);
+    sc[8] = cos(q[5]);
+    sc[9] = sin(q[5]);
+    bias_sc(q, sc, qd, chi, N);
 }
 
 }  // namespace idim_models::denso_vp6242g

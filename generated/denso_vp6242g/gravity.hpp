@@ -8,16 +8,17 @@
 
 namespace idim_models::denso_vp6242g {
 
-/// Torque that holds the rigid links at rest.
+/// Torque that holds the rigid links at rest. Cosines and sines are given.
 ///   q [6] joint positions [rad or m]
+///   sc [10] cosines and sines, as sines gives them
 ///   chi [48] base parameters, in the order of base_parameter_names
 ///   G [6] joint torques or forces [N*m or N]
 /// Scalar: float, double or any type with these operations. No heap, no exceptions.
 template <class Scalar>
-void gravity(const Scalar* q,
-             const Scalar* chi,
-             Scalar* G) {
-    using std::cos, std::sin;
+void gravity_sc([[maybe_unused]] const Scalar* q,
+                const Scalar* sc,
+                const Scalar* chi,
+                Scalar* G) {
     const Scalar& MX2R = chi[8];
     const Scalar& MY2 = chi[9];
     const Scalar& MX3R = chi[17];
@@ -28,16 +29,16 @@ void gravity(const Scalar* q,
     const Scalar& MY5R = chi[36];
     const Scalar& MX6 = chi[44];
     const Scalar& MY6 = chi[45];
-    const Scalar C2n = sin(q[1]);
-    const Scalar S2 = cos(q[1]);
-    const Scalar C3 = sin(q[2]);
-    const Scalar S3n = cos(q[2]);
-    const Scalar C4 = cos(q[3]);
-    const Scalar S4 = sin(q[3]);
-    const Scalar C5 = cos(q[4]);
-    const Scalar S5 = sin(q[4]);
-    const Scalar C6 = cos(q[5]);
-    const Scalar S6 = sin(q[5]);
+    const Scalar& C2n = sc[0];
+    const Scalar& S2 = sc[1];
+    const Scalar& C3 = sc[2];
+    const Scalar& S3n = sc[3];
+    const Scalar& C4 = sc[4];
+    const Scalar& S4 = sc[5];
+    const Scalar& C5 = sc[6];
+    const Scalar& S5 = sc[7];
+    const Scalar& C6 = sc[8];
+    const Scalar& S6 = sc[9];
     const Scalar VP2_1 = Scalar(9.81) * S2;
     const Scalar VP2_2n = Scalar(9.81) * C2n;
     const Scalar VP3_1 = C3 * VP2_1 + S3n * VP2_2n;
@@ -82,6 +83,30 @@ void gravity(const Scalar* q,
     G[3] = -n4_3n;
     G[4] = -n5_3n;
     G[5] = -N6_3n;
+}
+
+/// Torque that holds the rigid links at rest.
+///   q [6] joint positions [rad or m]
+///   chi [48] base parameters, in the order of base_parameter_names
+///   G [6] joint torques or forces [N*m or N]
+/// Scalar: float, double or any type with these operations. No heap, no exceptions.
+template <class Scalar>
+void gravity(const Scalar* q,
+             const Scalar* chi,
+             Scalar* G) {
+    using std::cos, std::sin;
+    Scalar sc[10];
+    sc[0] = sin(q[1]);
+    sc[1] = cos(q[1]);
+    sc[2] = sin(q[2]);
+    sc[3] = cos(q[2]);
+    sc[4] = cos(q[3]);
+    sc[5] = sin(q[3]);
+    sc[6] = cos(q[4]);
+    sc[7] = sin(q[4]);
+    sc[8] = cos(q[5]);
+    sc[9] = sin(q[5]);
+    gravity_sc(q, sc, chi, G);
 }
 
 }  // namespace idim_models::denso_vp6242g

@@ -8,20 +8,21 @@
 
 namespace idim_models::denso_vp6242g {
 
-/// Inverse dynamic model: tau = M(q) qdd + N(q, qd).
+/// Inverse dynamic model: tau = M(q) qdd + N(q, qd). Cosines and sines are given.
 ///   q [6] joint positions [rad or m]
+///   sc [10] cosines and sines, as sines gives them
 ///   qd [6] joint velocities [rad/s or m/s]
 ///   qdd [6] joint accelerations [rad/s^2 or m/s^2]
 ///   chi [48] base parameters, in the order of base_parameter_names
 ///   tau [6] joint torques or forces, joint side [N*m or N]
 /// Scalar: float, double or any type with these operations. No heap, no exceptions.
 template <class Scalar>
-void inverse_dynamics(const Scalar* q,
-                      const Scalar* qd,
-                      const Scalar* qdd,
-                      const Scalar* chi,
-                      Scalar* tau) {
-    using std::cos, std::sin;
+void inverse_dynamics_sc([[maybe_unused]] const Scalar* q,
+                         const Scalar* sc,
+                         const Scalar* qd,
+                         const Scalar* qdd,
+                         const Scalar* chi,
+                         Scalar* tau) {
     const Scalar& ZZ1R = chi[0];
     const Scalar& Fv1 = chi[1];
     const Scalar& Fc1 = chi[2];
@@ -70,16 +71,16 @@ void inverse_dynamics(const Scalar* q,
     const Scalar& MY6 = chi[45];
     const Scalar& Fv6 = chi[46];
     const Scalar& Fc6 = chi[47];
-    const Scalar C2n = sin(q[1]);
-    const Scalar S2 = cos(q[1]);
-    const Scalar C3 = sin(q[2]);
-    const Scalar S3n = cos(q[2]);
-    const Scalar C4 = cos(q[3]);
-    const Scalar S4 = sin(q[3]);
-    const Scalar C5 = cos(q[4]);
-    const Scalar S5 = sin(q[4]);
-    const Scalar C6 = cos(q[5]);
-    const Scalar S6 = sin(q[5]);
+    const Scalar& C2n = sc[0];
+    const Scalar& S2 = sc[1];
+    const Scalar& C3 = sc[2];
+    const Scalar& S3n = sc[3];
+    const Scalar& C4 = sc[4];
+    const Scalar& S4 = sc[5];
+    const Scalar& C5 = sc[6];
+    const Scalar& S5 = sc[7];
+    const Scalar& C6 = sc[8];
+    const Scalar& S6 = sc[9];
     const Scalar W2_1 = qd[0] * S2;
     const Scalar W2_2n = qd[0] * C2n;
     const Scalar WP2_1 = qdd[0] * S2;
@@ -316,6 +317,34 @@ void inverse_dynamics(const Scalar* q,
     tau[3] = tau4;
     tau[4] = -tau5n;
     tau[5] = tau6;
+}
+
+/// Inverse dynamic model: tau = M(q) qdd + N(q, qd).
+///   q [6] joint positions [rad or m]
+///   qd [6] joint velocities [rad/s or m/s]
+///   qdd [6] joint accelerations [rad/s^2 or m/s^2]
+///   chi [48] base parameters, in the order of base_parameter_names
+///   tau [6] joint torques or forces, joint side [N*m or N]
+/// Scalar: float, double or any type with these operations. No heap, no exceptions.
+template <class Scalar>
+void inverse_dynamics(const Scalar* q,
+                      const Scalar* qd,
+                      const Scalar* qdd,
+                      const Scalar* chi,
+                      Scalar* tau) {
+    using std::cos, std::sin;
+    Scalar sc[10];
+    sc[0] = sin(q[1]);
+    sc[1] = cos(q[1]);
+    sc[2] = sin(q[2]);
+    sc[3] = cos(q[2]);
+    sc[4] = cos(q[3]);
+    sc[5] = sin(q[3]);
+    sc[6] = cos(q[4]);
+    sc[7] = sin(q[4]);
+    sc[8] = cos(q[5]);
+    sc[9] = sin(q[5]);
+    inverse_dynamics_sc(q, sc, qd, qdd, chi, tau);
 }
 
 }  // namespace idim_models::denso_vp6242g

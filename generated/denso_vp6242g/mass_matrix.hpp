@@ -8,16 +8,17 @@
 
 namespace idim_models::denso_vp6242g {
 
-/// Inertia matrix of the robot with its drives.
+/// Inertia matrix of the robot with its drives. Cosines and sines are given.
 ///   q [6] joint positions [rad or m]
+///   sc [10] cosines and sines, as sines gives them
 ///   chi [48] base parameters, in the order of base_parameter_names
 ///   M [6 x 6] symmetric
 /// Scalar: float, double or any type with these operations. No heap, no exceptions.
 template <class Scalar>
-void mass_matrix(const Scalar* q,
-                 const Scalar* chi,
-                 Scalar* M) {
-    using std::cos, std::sin;
+void mass_matrix_sc([[maybe_unused]] const Scalar* q,
+                    const Scalar* sc,
+                    const Scalar* chi,
+                    Scalar* M) {
     const Scalar& ZZ1R = chi[0];
     const Scalar& XX2R = chi[3];
     const Scalar& XY2 = chi[4];
@@ -52,16 +53,16 @@ void mass_matrix(const Scalar* q,
     const Scalar& ZZ6 = chi[43];
     const Scalar& MX6 = chi[44];
     const Scalar& MY6 = chi[45];
-    const Scalar C2n = sin(q[1]);
-    const Scalar S2 = cos(q[1]);
-    const Scalar C3 = sin(q[2]);
-    const Scalar S3n = cos(q[2]);
-    const Scalar C4 = cos(q[3]);
-    const Scalar S4 = sin(q[3]);
-    const Scalar C5 = cos(q[4]);
-    const Scalar S5 = sin(q[4]);
-    const Scalar C6 = cos(q[5]);
-    const Scalar S6 = sin(q[5]);
+    const Scalar& C2n = sc[0];
+    const Scalar& S2 = sc[1];
+    const Scalar& C3 = sc[2];
+    const Scalar& S3n = sc[3];
+    const Scalar& C4 = sc[4];
+    const Scalar& S4 = sc[5];
+    const Scalar& C5 = sc[6];
+    const Scalar& S5 = sc[7];
+    const Scalar& C6 = sc[8];
+    const Scalar& S6 = sc[9];
     const Scalar J6_2xy = Scalar(2) * XY6;
     const Scalar J6_u = XX6R * S6 + C6 * J6_2xy;
     const Scalar J6_t = S6 * J6_u;
@@ -231,6 +232,30 @@ void mass_matrix(const Scalar* q,
     M[33] = mn6_5_2;
     M[34] = -J6r_yzn;
     M[35] = ZZ6;
+}
+
+/// Inertia matrix of the robot with its drives.
+///   q [6] joint positions [rad or m]
+///   chi [48] base parameters, in the order of base_parameter_names
+///   M [6 x 6] symmetric
+/// Scalar: float, double or any type with these operations. No heap, no exceptions.
+template <class Scalar>
+void mass_matrix(const Scalar* q,
+                 const Scalar* chi,
+                 Scalar* M) {
+    using std::cos, std::sin;
+    Scalar sc[10];
+    sc[0] = sin(q[1]);
+    sc[1] = cos(q[1]);
+    sc[2] = sin(q[2]);
+    sc[3] = cos(q[2]);
+    sc[4] = cos(q[3]);
+    sc[5] = sin(q[3]);
+    sc[6] = cos(q[4]);
+    sc[7] = sin(q[4]);
+    sc[8] = cos(q[5]);
+    sc[9] = sin(q[5]);
+    mass_matrix_sc(q, sc, chi, M);
 }
 
 }  // namespace idim_models::denso_vp6242g

@@ -18,6 +18,7 @@ inline constexpr const char* input_hash = "292dd7bc1af8bc4b";
 inline constexpr int dof = 6;
 inline constexpr int base_parameters = 48;
 inline constexpr int standard_parameters = 72;
+inline constexpr int sine_count = 10;
 
 inline constexpr std::array<const char*, dof> joint_names = {
     "j1",

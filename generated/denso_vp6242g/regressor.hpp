@@ -8,28 +8,29 @@
 
 namespace idim_models::denso_vp6242g {
 
-/// Regressor of the base parameters: tau = W(q, qd, qdd) chi.
+/// Regressor of the base parameters: tau = W(q, qd, qdd) chi. Cosines and sines are given.
 ///   q [6] joint positions [rad or m]
+///   sc [10] cosines and sines, as sines gives them
 ///   qd [6] joint velocities [rad/s or m/s]
 ///   qdd [6] joint accelerations [rad/s^2 or m/s^2]
 ///   W [6 x 48] row-major, row = joint, column = base parameter
 /// Scalar: float, double or any type with these operations. No heap, no exceptions.
 template <class Scalar>
-void regressor(const Scalar* q,
-               const Scalar* qd,
-               const Scalar* qdd,
-               Scalar* W) {
-    using std::cos, std::sin;
-    const Scalar C2n = sin(q[1]);
-    const Scalar S2 = cos(q[1]);
-    const Scalar C3 = sin(q[2]);
-    const Scalar S3n = cos(q[2]);
-    const Scalar C4 = cos(q[3]);
-    const Scalar S4 = sin(q[3]);
-    const Scalar C5 = cos(q[4]);
-    const Scalar S5 = sin(q[4]);
-    const Scalar C6 = cos(q[5]);
-    const Scalar S6 = sin(q[5]);
+void regressor_sc([[maybe_unused]] const Scalar* q,
+                  const Scalar* sc,
+                  const Scalar* qd,
+                  const Scalar* qdd,
+                  Scalar* W) {
+    const Scalar& C2n = sc[0];
+    const Scalar& S2 = sc[1];
+    const Scalar& C3 = sc[2];
+    const Scalar& S3n = sc[3];
+    const Scalar& C4 = sc[4];
+    const Scalar& S4 = sc[5];
+    const Scalar& C5 = sc[6];
+    const Scalar& S5 = sc[7];
+    const Scalar& C6 = sc[8];
+    const Scalar& S6 = sc[9];
     const Scalar W2_1 = qd[0] * S2;
     const Scalar W2_2n = qd[0] * C2n;
     const Scalar WP2_1 = qdd[0] * S2;
@@ -616,6 +617,32 @@ void regressor(const Scalar* q,
     W[285] = -VP6_1;
     W[286] = qd[5];
     W[287] = W6_Fc6;
+}
+
+/// Regressor of the base parameters: tau = W(q, qd, qdd) chi.
+///   q [6] joint positions [rad or m]
+///   qd [6] joint velocities [rad/s or m/s]
+///   qdd [6] joint accelerations [rad/s^2 or m/s^2]
+///   W [6 x 48] row-major, row = joint, column = base parameter
+/// Scalar: float, double or any type with these operations. No heap, no exceptions.
+template <class Scalar>
+void regressor(const Scalar* q,
+               const Scalar* qd,
+               const Scalar* qdd,
+               Scalar* W) {
+    using std::cos, std::sin;
+    Scalar sc[10];
+    sc[0] = sin(q[1]);
+    sc[1] = cos(q[1]);
+    sc[2] = sin(q[2]);
+    sc[3] = cos(q[2]);
+    sc[4] = cos(q[3]);
+    sc[5] = sin(q[3]);
+    sc[6] = cos(q[4]);
+    sc[7] = sin(q[4]);
+    sc[8] = cos(q[5]);
+    sc[9] = sin(q[5]);
+    regressor_sc(q, sc, qd, qdd, W);
 }
 
 }  // namespace idim_models::denso_vp6242g

@@ -15,7 +15,6 @@ namespace idim_models::denso_vp6242g {
 template <class Scalar>
 void regroup(const Scalar* standard,
              Scalar* chi) {
-
     const Scalar chi1_t1 = Scalar(0.0441) * standard[33];
     const Scalar chi1_t2 = Scalar(0.049725) * standard[45];
     const Scalar chi1_t3 = Scalar(0.049725) * standard[57];

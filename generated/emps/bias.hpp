@@ -19,7 +19,6 @@ void bias([[maybe_unused]] const Scalar* q,
           const Scalar* qd,
           const Scalar* chi,
           Scalar* N) {
-
     const Scalar& Fv1 = chi[1];
     const Scalar& Fc1 = chi[2];
     const Scalar& off1 = chi[3];

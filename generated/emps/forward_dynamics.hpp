@@ -23,7 +23,6 @@ void forward_dynamics([[maybe_unused]] const Scalar* q,
                       const Scalar* chi,
                       Scalar* qdd,
                       Scalar* D) {
-
     const Scalar& M1 = chi[0];
     const Scalar& Fv1 = chi[1];
     const Scalar& Fc1 = chi[2];

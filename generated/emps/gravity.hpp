@@ -17,7 +17,6 @@ template <class Scalar>
 void gravity([[maybe_unused]] const Scalar* q,
              [[maybe_unused]] const Scalar* chi,
              Scalar* G) {
-
     G[0] = Scalar(0);
 }
 

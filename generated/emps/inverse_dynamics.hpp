@@ -21,7 +21,6 @@ void inverse_dynamics([[maybe_unused]] const Scalar* q,
                       const Scalar* qdd,
                       const Scalar* chi,
                       Scalar* tau) {
-
     const Scalar& M1 = chi[0];
     const Scalar& Fv1 = chi[1];
     const Scalar& Fc1 = chi[2];

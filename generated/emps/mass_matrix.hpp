@@ -17,7 +17,6 @@ template <class Scalar>
 void mass_matrix([[maybe_unused]] const Scalar* q,
                  const Scalar* chi,
                  Scalar* M) {
-
     const Scalar& M1 = chi[0];
     M[0] = M1;
 }

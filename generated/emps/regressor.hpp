@@ -19,7 +19,6 @@ void regressor([[maybe_unused]] const Scalar* q,
                const Scalar* qd,
                const Scalar* qdd,
                Scalar* W) {
-
     const Scalar W1_Fc1 = sign(qd[0]);
     W[0] = qdd[0];
     W[1] = qd[0];

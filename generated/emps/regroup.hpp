@@ -15,7 +15,6 @@ namespace idim_models::emps {
 template <class Scalar>
 void regroup(const Scalar* standard,
              Scalar* chi) {
-
     chi[0] = standard[9];
     chi[1] = standard[10];
     chi[2] = standard[11];

@@ -8,26 +8,27 @@
 
 namespace idim_models::scara {
 
-/// Torque at zero acceleration: centrifugal, Coriolis, gravity, friction and other effects.
+/// Torque at zero acceleration: centrifugal, Coriolis, gravity, friction and other effects. Cosines and sines are given.
 ///   q [2] joint positions [rad or m]
+///   sc [2] cosines and sines, as sines gives them
 ///   qd [2] joint velocities [rad/s or m/s]
 ///   chi [8] base parameters, in the order of base_parameter_names
 ///   N [2] joint torques or forces [N*m or N]
 /// Scalar: float, double or any type with these operations. No heap, no exceptions.
 template <class Scalar>
-void bias(const Scalar* q,
-          const Scalar* qd,
-          const Scalar* chi,
-          Scalar* N) {
-    using std::cos, std::sin;
+void bias_sc([[maybe_unused]] const Scalar* q,
+             const Scalar* sc,
+             const Scalar* qd,
+             const Scalar* chi,
+             Scalar* N) {
     const Scalar& Fv1 = chi[1];
     const Scalar& Fc1 = chi[2];
     const Scalar& MX2 = chi[4];
     const Scalar& MY2 = chi[5];
     const Scalar& Fv2 = chi[6];
     const Scalar& Fc2 = chi[7];
-    const Scalar C2 = cos(q[1]);
-    const Scalar S2 = sin(q[1]);
+    const Scalar& C2 = sc[0];
+    const Scalar& S2 = sc[1];
     const Scalar WzWz1 = qd[0] * qd[0];
     const Scalar VC2_1n = Scalar(0.5) * WzWz1;
     const Scalar VP2_1n = C2 * VC2_1n;
@@ -43,6 +44,24 @@ void bias(const Scalar* q,
     const Scalar N2 = N2_3 + (Fv2 * qd[1] + Fc2 * sign(qd[1]));
     N[0] = N1;
     N[1] = N2;
+}
+
+/// Torque at zero acceleration: centrifugal, Coriolis, gravity, friction and other effects.
+///   q [2] joint positions [rad or m]
+///   qd [2] joint velocities [rad/s or m/s]
+///   chi [8] base parameters, in the order of base_parameter_names
+///   N [2] joint torques or forces [N*m or N]
+/// Scalar: float, double or any type with these operations. No heap, no exceptions.
+template <class Scalar>
+void bias(const Scalar* q,
+          const Scalar* qd,
+          const Scalar* chi,
+          Scalar* N) {
+    using std::cos, std::sin;
+    Scalar sc[2];
+    sc[0] = cos(q[1]);
+    sc[1] = sin(q[1]);
+    bias_sc(q, sc, qd, chi, N);
 }
 
 }  // namespace idim_models::scara

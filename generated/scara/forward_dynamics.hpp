@@ -8,8 +8,9 @@
 
 namespace idim_models::scara {
 
-/// Direct dynamic model: qdd = M(q)^-1 (tau - N(q, qd)), by M = L' D L.
+/// Direct dynamic model: qdd = M(q)^-1 (tau - N(q, qd)), by M = L' D L. Cosines and sines are given.
 ///   q [2] joint positions [rad or m]
+///   sc [2] cosines and sines, as sines gives them
 ///   qd [2] joint velocities [rad/s or m/s]
 ///   tau [2] joint torques or forces, joint side [N*m or N]
 ///   chi [8] base parameters, in the order of base_parameter_names
@@ -17,13 +18,13 @@ namespace idim_models::scara {
 ///   D [2] pivots, all positive if and only if M is positive definite
 /// Scalar: float, double or any type with these operations. No heap, no exceptions.
 template <class Scalar>
-void forward_dynamics(const Scalar* q,
-                      const Scalar* qd,
-                      const Scalar* tau,
-                      const Scalar* chi,
-                      Scalar* qdd,
-                      Scalar* D) {
-    using std::cos, std::sin;
+void forward_dynamics_sc([[maybe_unused]] const Scalar* q,
+                         const Scalar* sc,
+                         const Scalar* qd,
+                         const Scalar* tau,
+                         const Scalar* chi,
+                         Scalar* qdd,
+                         Scalar* D) {
     const Scalar& ZZ1R = chi[0];
     const Scalar& Fv1 = chi[1];
     const Scalar& Fc1 = chi[2];
@@ -32,8 +33,8 @@ void forward_dynamics(const Scalar* q,
     const Scalar& MY2 = chi[5];
     const Scalar& Fv2 = chi[6];
     const Scalar& Fc2 = chi[7];
-    const Scalar C2 = cos(q[1]);
-    const Scalar S2 = sin(q[1]);
+    const Scalar& C2 = sc[0];
+    const Scalar& S2 = sc[1];
     const Scalar WzWz1 = qd[0] * qd[0];
     const Scalar VC2_1n = Scalar(0.5) * WzWz1;
     const Scalar VP2_1n = C2 * VC2_1n;
@@ -62,6 +63,28 @@ void forward_dynamics(const Scalar* q,
     D[1] = ZZ2R;
     qdd[0] = -qdd1n;
     qdd[1] = -qdd2n;
+}
+
+/// Direct dynamic model: qdd = M(q)^-1 (tau - N(q, qd)), by M = L' D L.
+///   q [2] joint positions [rad or m]
+///   qd [2] joint velocities [rad/s or m/s]
+///   tau [2] joint torques or forces, joint side [N*m or N]
+///   chi [8] base parameters, in the order of base_parameter_names
+///   qdd [2] joint accelerations [rad/s^2 or m/s^2]
+///   D [2] pivots, all positive if and only if M is positive definite
+/// Scalar: float, double or any type with these operations. No heap, no exceptions.
+template <class Scalar>
+void forward_dynamics(const Scalar* q,
+                      const Scalar* qd,
+                      const Scalar* tau,
+                      const Scalar* chi,
+                      Scalar* qdd,
+                      Scalar* D) {
+    using std::cos, std::sin;
+    Scalar sc[2];
+    sc[0] = cos(q[1]);
+    sc[1] = sin(q[1]);
+    forward_dynamics_sc(q, sc, qd, tau, chi, qdd, D);
 }
 
 }  // namespace idim_models::scara

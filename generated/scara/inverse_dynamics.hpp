@@ -8,20 +8,21 @@
 
 namespace idim_models::scara {
 
-/// Inverse dynamic model: tau = M(q) qdd + N(q, qd).
+/// Inverse dynamic model: tau = M(q) qdd + N(q, qd). Cosines and sines are given.
 ///   q [2] joint positions [rad or m]
+///   sc [2] cosines and sines, as sines gives them
 ///   qd [2] joint velocities [rad/s or m/s]
 ///   qdd [2] joint accelerations [rad/s^2 or m/s^2]
 ///   chi [8] base parameters, in the order of base_parameter_names
 ///   tau [2] joint torques or forces, joint side [N*m or N]
 /// Scalar: float, double or any type with these operations. No heap, no exceptions.
 template <class Scalar>
-void inverse_dynamics(const Scalar* q,
-                      const Scalar* qd,
-                      const Scalar* qdd,
-                      const Scalar* chi,
-                      Scalar* tau) {
-    using std::cos, std::sin;
+void inverse_dynamics_sc([[maybe_unused]] const Scalar* q,
+                         const Scalar* sc,
+                         const Scalar* qd,
+                         const Scalar* qdd,
+                         const Scalar* chi,
+                         Scalar* tau) {
     const Scalar& ZZ1R = chi[0];
     const Scalar& Fv1 = chi[1];
     const Scalar& Fc1 = chi[2];
@@ -30,8 +31,8 @@ void inverse_dynamics(const Scalar* q,
     const Scalar& MY2 = chi[5];
     const Scalar& Fv2 = chi[6];
     const Scalar& Fc2 = chi[7];
-    const Scalar C2 = cos(q[1]);
-    const Scalar S2 = sin(q[1]);
+    const Scalar& C2 = sc[0];
+    const Scalar& S2 = sc[1];
     const Scalar WzWz1 = qd[0] * qd[0];
     const Scalar VC2_1n = Scalar(0.5) * WzWz1;
     const Scalar VC2_2 = Scalar(0.5) * qdd[0];
@@ -51,6 +52,26 @@ void inverse_dynamics(const Scalar* q,
     const Scalar tau2 = N2_3 + (Fv2 * qd[1] + Fc2 * sign(qd[1]));
     tau[0] = tau1;
     tau[1] = tau2;
+}
+
+/// Inverse dynamic model: tau = M(q) qdd + N(q, qd).
+///   q [2] joint positions [rad or m]
+///   qd [2] joint velocities [rad/s or m/s]
+///   qdd [2] joint accelerations [rad/s^2 or m/s^2]
+///   chi [8] base parameters, in the order of base_parameter_names
+///   tau [2] joint torques or forces, joint side [N*m or N]
+/// Scalar: float, double or any type with these operations. No heap, no exceptions.
+template <class Scalar>
+void inverse_dynamics(const Scalar* q,
+                      const Scalar* qd,
+                      const Scalar* qdd,
+                      const Scalar* chi,
+                      Scalar* tau) {
+    using std::cos, std::sin;
+    Scalar sc[2];
+    sc[0] = cos(q[1]);
+    sc[1] = sin(q[1]);
+    inverse_dynamics_sc(q, sc, qd, qdd, chi, tau);
 }
 
 }  // namespace idim_models::scara

@@ -8,6 +8,33 @@
 
 namespace idim_models::scara {
 
+/// Inertia matrix of the robot with its drives. Cosines and sines are given.
+///   q [2] joint positions [rad or m]
+///   sc [2] cosines and sines, as sines gives them
+///   chi [8] base parameters, in the order of base_parameter_names
+///   M [2 x 2] symmetric
+/// Scalar: float, double or any type with these operations. No heap, no exceptions.
+template <class Scalar>
+void mass_matrix_sc([[maybe_unused]] const Scalar* q,
+                    const Scalar* sc,
+                    const Scalar* chi,
+                    Scalar* M) {
+    const Scalar& ZZ1R = chi[0];
+    const Scalar& ZZ2R = chi[3];
+    const Scalar& MX2 = chi[4];
+    const Scalar& MY2 = chi[5];
+    const Scalar& C2 = sc[0];
+    const Scalar& S2 = sc[1];
+    const Scalar S2_1 = MX2 * C2 - MY2 * S2;
+    const Scalar J2r_zz = ZZ2R + S2_1;
+    const Scalar J2s_zz = ZZ1R + J2r_zz;
+    const Scalar mm2_2_3 = ZZ2R + Scalar(0.5) * S2_1;
+    M[0] = J2s_zz;
+    M[1] = mm2_2_3;
+    M[2] = mm2_2_3;
+    M[3] = ZZ2R;
+}
+
 /// Inertia matrix of the robot with its drives.
 ///   q [2] joint positions [rad or m]
 ///   chi [8] base parameters, in the order of base_parameter_names
@@ -18,20 +45,10 @@ void mass_matrix(const Scalar* q,
                  const Scalar* chi,
                  Scalar* M) {
     using std::cos, std::sin;
-    const Scalar& ZZ1R = chi[0];
-    const Scalar& ZZ2R = chi[3];
-    const Scalar& MX2 = chi[4];
-    const Scalar& MY2 = chi[5];
-    const Scalar C2 = cos(q[1]);
-    const Scalar S2 = sin(q[1]);
-    const Scalar S2_1 = MX2 * C2 - MY2 * S2;
-    const Scalar J2r_zz = ZZ2R + S2_1;
-    const Scalar J2s_zz = ZZ1R + J2r_zz;
-    const Scalar mm2_2_3 = ZZ2R + Scalar(0.5) * S2_1;
-    M[0] = J2s_zz;
-    M[1] = mm2_2_3;
-    M[2] = mm2_2_3;
-    M[3] = ZZ2R;
+    Scalar sc[2];
+    sc[0] = cos(q[1]);
+    sc[1] = sin(q[1]);
+    mass_matrix_sc(q, sc, chi, M);
 }
 
 }  // namespace idim_models::scara

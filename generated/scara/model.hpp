@@ -16,6 +16,7 @@ inline constexpr const char* input_hash = "e66441ee84c0add3";
 inline constexpr int dof = 2;
 inline constexpr int base_parameters = 8;
 inline constexpr int standard_parameters = 26;
+inline constexpr int sine_count = 2;
 
 inline constexpr std::array<const char*, dof> joint_names = {
     "j1",

@@ -8,20 +8,21 @@
 
 namespace idim_models::scara {
 
-/// Regressor of the base parameters: tau = W(q, qd, qdd) chi.
+/// Regressor of the base parameters: tau = W(q, qd, qdd) chi. Cosines and sines are given.
 ///   q [2] joint positions [rad or m]
+///   sc [2] cosines and sines, as sines gives them
 ///   qd [2] joint velocities [rad/s or m/s]
 ///   qdd [2] joint accelerations [rad/s^2 or m/s^2]
 ///   W [2 x 8] row-major, row = joint, column = base parameter
 /// Scalar: float, double or any type with these operations. No heap, no exceptions.
 template <class Scalar>
-void regressor(const Scalar* q,
-               const Scalar* qd,
-               const Scalar* qdd,
-               Scalar* W) {
-    using std::cos, std::sin;
-    const Scalar C2 = cos(q[1]);
-    const Scalar S2 = sin(q[1]);
+void regressor_sc([[maybe_unused]] const Scalar* q,
+                  const Scalar* sc,
+                  const Scalar* qd,
+                  const Scalar* qdd,
+                  Scalar* W) {
+    const Scalar& C2 = sc[0];
+    const Scalar& S2 = sc[1];
     const Scalar WzWz1 = qd[0] * qd[0];
     const Scalar VC2_1n = Scalar(0.5) * WzWz1;
     const Scalar VC2_2 = Scalar(0.5) * qdd[0];
@@ -52,6 +53,24 @@ void regressor(const Scalar* q,
     W[13] = VP2_1n;
     W[14] = qd[1];
     W[15] = W2_Fc2;
+}
+
+/// Regressor of the base parameters: tau = W(q, qd, qdd) chi.
+///   q [2] joint positions [rad or m]
+///   qd [2] joint velocities [rad/s or m/s]
+///   qdd [2] joint accelerations [rad/s^2 or m/s^2]
+///   W [2 x 8] row-major, row = joint, column = base parameter
+/// Scalar: float, double or any type with these operations. No heap, no exceptions.
+template <class Scalar>
+void regressor(const Scalar* q,
+               const Scalar* qd,
+               const Scalar* qdd,
+               Scalar* W) {
+    using std::cos, std::sin;
+    Scalar sc[2];
+    sc[0] = cos(q[1]);
+    sc[1] = sin(q[1]);
+    regressor_sc(q, sc, qd, qdd, W);
 }
 
 }  // namespace idim_models::scara

@@ -15,7 +15,6 @@ namespace idim_models::scara {
 template <class Scalar>
 void regroup(const Scalar* standard,
              Scalar* chi) {
-
     chi[0] = standard[5] + standard[10] + Scalar(0.25) * standard[22];
     chi[1] = standard[11];
     chi[2] = standard[12];

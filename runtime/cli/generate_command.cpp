@@ -12,6 +12,7 @@ namespace {
 struct generate_options {
     std::string robot;
     std::string folder;
+    generator::generation_options wanted;
     bool check = false;
     std::string json_file;
 };
@@ -33,11 +34,8 @@ json to_json(const generator::generated_model& model) {
     }
     json operations = to_json(model.operations);
     operations["rigid"] = to_json(model.rigid_operations);
-    return {{"robot", model.robot},
-            {"input_hash", model.input_hash},
-            {"files", files},
-            {"seconds", model.seconds},
-            {"operations", operations}};
+    return {{"robot", model.robot}, {"target", model.target},   {"input_hash", model.input_hash},
+            {"files", files},       {"seconds", model.seconds}, {"operations", operations}};
 }
 
 void print_operations(const char* name, const generator::operation_count& all,
@@ -64,7 +62,7 @@ int check_folder(const generator::generated_model& model, const generate_options
 }
 
 int run(const generate_options& options) {
-    const generator::generated_model model = generator::generate(options.robot, templates_folder());
+    const generator::generated_model model = generator::generate(options.robot, templates_folder(), options.wanted);
     if (options.check) {
         return check_folder(model, options);
     }
@@ -81,9 +79,12 @@ int run(const generate_options& options) {
 
 void add_generate_command(CLI::App& app, action& chosen) {
     const auto options = std::make_shared<generate_options>();
-    CLI::App* command = app.add_subcommand("generate", "C++ code of the robot's models");
+    CLI::App* command = app.add_subcommand("generate", "code of the robot's models");
     command->add_option("robot", options->robot, "robot description (.yaml)")->required();
     command->add_option("-o,--output", options->folder, "folder for the code")->required();
+    command->add_option("--target", options->wanted.target, "language of the code")
+        ->check(CLI::IsMember(generator::target_names()))
+        ->capture_default_str();
     command->add_flag("--check", options->check, "write nothing; exit 1 where the folder is not what would be written");
     add_json_option(*command, options->json_file);
     command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
