@@ -4,7 +4,7 @@
 #include "console_line.hpp"
 #include "models/robot_model.hpp"
 
-extern const robot_model<float> scara_cpp, rx90_cpp, kuka_lwr_cpp;
+extern const robot_model<float> scara_cpp, scara_c, rx90_cpp, rx90_c, kuka_lwr_cpp, kuka_lwr_c;
 
 namespace {
 
@@ -24,7 +24,7 @@ struct working_memory {
 
 working_memory memory;
 
-const robot_model<float>* const robots[] = {&scara_cpp, &rx90_cpp, &kuka_lwr_cpp};
+const robot_model<float>* const robots[] = {&scara_cpp, &scara_c, &rx90_cpp, &rx90_c, &kuka_lwr_cpp, &kuka_lwr_c};
 
 /// Numbers between -1 and 1, the same on every run (Numerical Recipes 3rd ed., section 7.1: multiplier and increment).
 class uniform_numbers {
@@ -123,6 +123,11 @@ struct regressor_call {
     }
 };
 
+/// Of a number of instructions that is known, to see what the counter counts.
+struct two_hundred_nops {
+    void operator()() const { __asm__ volatile(".rept 200\n nop\n .endr"); }
+};
+
 struct no_call {
     void operator()() const { __asm__ volatile("" ::: "memory"); }
 };
@@ -144,11 +149,12 @@ std::uint32_t instructions(const Call& call) {
     return (count_hundred(call) - count_hundred(no_call())) * instructions_per_count / 100U;
 }
 
-/// Bytes of stack below this function that one call writes to.
+/// Bytes of stack that one call writes to, below the arguments that are handed over.
 template <class Call>
 [[gnu::noinline]] std::uint32_t stack_bytes(const Call& call) {
     paint_stack();
-    const std::uintptr_t here = reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
+    std::uintptr_t here = 0;
+    __asm__ volatile("mov %0, sp" : "=r"(here));
     call();
     const std::uintptr_t deepest = deepest_stack();
     return deepest < here ? here - deepest : 0;
@@ -185,6 +191,7 @@ void exercise(const robot_model<float>& robot) {
 
 int main() {
     start_counter();
+    console_line().word("counted").number(instructions(two_hundred_nops())).word("for 200 nops");
     for (const robot_model<float>* robot : robots) {
         exercise(*robot);
     }

@@ -5,9 +5,9 @@
 
 mine=$WORK/consumer-${CMAKE_GENERATOR// /-}
 build=$mine/build
-models=$build/idim_models/scara
+models=$build/idim_models/cpp/scara
 
-run_build() { cmake --build "$build" --parallel 2 >"$mine/build.log" 2>&1 || { cat "$mine/build.log"; fail "does not build"; }; }
+run_build() { cmake --build "$build" --parallel 2 "$@" >"$mine/build.log" 2>&1 || { cat "$mine/build.log"; fail "does not build"; }; }
 
 # When each result of the build was last written: models, objects, programs.
 results() {
@@ -34,6 +34,15 @@ Builds() {
 
 GivesTheTorquesOfTheClosedForm() {
     same "torques" "$(awk -F, -f "$SOURCE/tests/installed/scara_torque.awk" "$mine/motion.csv")" "$(torques)"
+}
+
+CProgramGivesTheInertiaOfTheClosedForm() {
+    local q2
+    for q2 in 0 0.7 -2.1; do
+        same "inertia at q2 = $q2" "$(awk -v q2=$q2 'BEGIN {
+            ZZ1 = 3.44; ZZ2 = 0.062; coupling = 0.5 * (0.242 * cos(q2) - 0.014 * sin(q2))
+            printf "%.5g %.5g %.5g\n", ZZ1 + ZZ2 + 2 * coupling, ZZ2 + coupling, ZZ2 }')" "$("$build/inertia" $q2)"
+    done
 }
 
 IdentifiesWithTheModelsCompiledIn() { "$build/identifiers/built_in_model_test" || fail "built_in_model_test"; }
@@ -64,20 +73,22 @@ GeneratorThatIsNewerRunsAgain() {
     same "files written although nothing changed" "$before" "$(results)"
 }
 
+program=torque # the one that recompiles looks at
+
 # recompiles FILE SED_SCRIPT: a change of FILE compiles and links the program again; it is taken back in the end. Leaves the torques
 # that the changed program gave in $changed_torques.
 recompiles() {
-    run_build
+    run_build --target torque inertia
     local before
-    before=$(results | grep 'torque')
+    before=$(results | grep "$program")
     cp "$1" "$mine/original"
     sed -i "$2" "$1"
     ! cmp -s "$1" "$mine/original" || fail "no change of $1 by $2"
-    run_build
+    run_build --target torque inertia
     changed_torques=$(torques)
-    ! join <(echo "$before") <(results | grep 'torque') | awk '$2 == $3' | grep . || fail "not written again after a change of $1"
+    ! join <(echo "$before") <(results | grep "$program") | awk '$2 == $3' | grep . || fail "not written again after a change of $1"
     cp "$mine/original" "$1"
-    run_build
+    run_build --target torque inertia
 }
 
 ChangedConstantRelinks() {
@@ -87,6 +98,8 @@ ChangedConstantRelinks() {
     rx90=$(results | grep rx90)
     recompiles "$mine/robots/scara/scara.yaml" 's/L: 0.5/L: 0.6/'
     [ "$before" != "$changed_torques" ] || fail "the program is as before"
+    program=inertia
+    recompiles "$mine/robots/scara/scara.yaml" 's/L: 0.5/L: 0.6/'
     same "the change was not taken back" "$before" "$(torques)"
     same "files of the other robot were written" "$rx90" "$(results | grep rx90)"
 }
@@ -101,11 +114,14 @@ ChangedTemplateRelinks() { recompiles "$mine/tree/share/idim/templates/cpp/funct
 
 # A file of the model that the build does not know would not be made again where it is lost, and Ninja would compile against an old one.
 BuildKnowsEveryFileOfTheManifest() {
-    local file
-    for file in $(sed -n '/"files"/,/]/s/^ *"\([^"]*\.[ch]p*\)",*$/\1/p' "$models/manifest.json"); do
-        ninja -C "$build" -t query "idim_models/scara/$file" >/dev/null || fail "idim_generate does not list $file"
+    local folder file
+    for folder in idim_models/cpp/scara idim_models/c/scara; do
+        file=
+        for file in $(sed -n '/"files"/,/]/s/^ *"\([^"]*\.[ch]p*\)",*$/\1/p' "$build/$folder/manifest.json"); do
+            ninja -C "$build" -t query "$folder/$file" >/dev/null || fail "idim_generate does not list $file"
+        done
+        [ -n "$file" ] || fail "no files in $folder/manifest.json"
     done
-    [ -n "$file" ] || fail "no files in $models/manifest.json"
 }
 
 BuildsWithPkgConfig() {

@@ -3,7 +3,7 @@
 . "$(dirname "$0")/support.sh"
 
 Installs() {
-    rm -rf "$WORK"
+    rm -rf "$WORK/first" "$tree"
     mkdir -p "$WORK"
     cmake --install "$BUILD" --prefix "$WORK/first" >"$WORK/install.log"
     mv "$WORK/first" "$tree"
@@ -20,6 +20,8 @@ NamesNoFolderItWasBuiltIn() {
 CommandFindsItsTemplates() {
     (cd / && env -i "$idim" generate "$tree/share/idim/robots/scara/scara.yaml" -o "$WORK/scara") >/dev/null
     diff -r "$WORK/scara" "$SOURCE/generated/scara" || fail "another model than in the sources"
+    (cd / && env -i "$idim" generate "$tree/share/idim/robots/scara/scara.yaml" -o "$WORK/scara_c" --target c) >/dev/null
+    diff -r "$WORK/scara_c" "$SOURCE/generated/scara_c" || fail "another model in C than in the sources"
 }
 
 LinkToTheCommandFindsThemToo() {
@@ -38,6 +40,7 @@ TemplatesOfTheEnvironmentComeFirst() {
 
 # simulate compiles the model at run time: the headers come from the installed tree.
 CommandCompilesModels() {
+    rm -rf "$WORK/cache" "$WORK/log.csv"
     awk -v phase=1 -v seconds=2 -f "$SOURCE/runtime/demo/scara_reference.awk" >"$WORK/reference.csv"
     env -i PATH="$PATH" XDG_CACHE_HOME="$WORK/cache" "$idim" simulate "$tree/share/idim/robots/scara/scara.yaml" \
         --parameters "$SOURCE/runtime/demo/scara_truth.yaml" --reference "$WORK/reference.csv" -o "$WORK/log.csv" >/dev/null
@@ -99,12 +102,30 @@ add_library(t ${CMAKE_BINARY_DIR}/t.cpp)
     local languages=CXX
     mkdir -p "$WORK/twin"
     cp "$tree/share/idim/robots/emps/emps.yaml" "$WORK/twin"
-    refused "${start}idim_generate(TARGET t)" "expected TARGET <target> ROBOT <robot.yaml>"
+    refused "${start}idim_generate(TARGET t)" "expected TARGET <target> ROBOT <robot.yaml | robot.urdf>"
+    refused "${start}idim_generate(TARGET t ROBOT \${IDIM_ROBOTS}/emps/emps.yaml LANGUAGE ada)" "[LANGUAGE cpp|c]"
+    refused "${start}idim_generate(TARGET t ROBOT \${IDIM_ROBOTS}/emps/emps.yaml LANGUAGE c)" "C among its LANGUAGES"
     refused "${start}idim_generate(TARGET none ROBOT \${IDIM_ROBOTS}/emps/emps.yaml)" "idim_generate: no target none"
     refused "${start}idim_generate(TARGET t ROBOT nowhere.yaml)" "idim_generate: no file"
     refused "${start}idim_generate(TARGET t ROBOT \${IDIM_ROBOTS}/emps/emps.yaml)" "needs idim::runtime, which is not here"
     refused "${start}idim_generate(TARGET t ROBOT \${IDIM_ROBOTS}/emps/emps.yaml HEADERS_ONLY)
 idim_generate(TARGET t ROBOT $WORK/twin/emps.yaml HEADERS_ONLY)" "idim_generate: two robots called emps"
+}
+
+UrdfThatARobotNamesIsADependency() {
+    local robots=$WORK/urdf_robots languages=CXX
+    mkdir -p "$robots/meshes"
+    printf '<robot name="plain-arm"/>\n' | tee "$robots/plain.urdf" >"$robots/meshes/arm.urdf"
+    printf 'name: arm\nurdf: "meshes/arm.urdf"  # beside its meshes\n' >"$robots/arm.yaml"
+    configure "find_package(idim REQUIRED COMPONENTS generator)
+file(WRITE \${CMAKE_BINARY_DIR}/t.cpp \"int t;\")
+add_library(t \${CMAKE_BINARY_DIR}/t.cpp)
+idim_generate(TARGET t ROBOT $robots/plain.urdf HEADERS_ONLY)
+idim_generate(TARGET t ROBOT $robots/arm.yaml HEADERS_ONLY)" -G Ninja || { cat "$WORK/configure/log"; fail "does not configure"; }
+    for pair in plain:plain.urdf arm:meshes/arm.urdf arm:arm.yaml; do
+        ninja -C "$WORK/configure/build" -t query "idim_models/cpp/${pair%:*}/generated.stamp" >"$WORK/configure/log"
+        contains "$WORK/configure/log" "$robots/${pair#*:}"
+    done
 }
 
 "$1"
