@@ -39,7 +39,8 @@ function(_idim_read_robot robot_file name urdf_file)
     endif()
     string(REGEX MATCH "\nname:[ \t]*[\"']?([A-Za-z0-9_]*)" found "\n${text}")
   endif()
-  string(MAKE_C_IDENTIFIER "${CMAKE_MATCH_1}" identifier)
+  string(REGEX REPLACE "[^A-Za-z0-9]" "_" identifier "${CMAKE_MATCH_1}")
+  string(REGEX REPLACE "^([^A-Za-z])" "r\\1" identifier "${identifier}") # as the generator reads the names of a URDF
   set(${name} "${identifier}" PARENT_SCOPE)
 endfunction()
 
