@@ -13,8 +13,10 @@ class cpp_language : public language {
     std::set<std::string> reserved() const override { return {"Scalar", "std"}; }
 
     std::string number(const rational& value) const override { return fmt::format("Scalar({})", to_decimal(value)); }
+    /// sign is ours, and a template that does not take the expressions of types that delay their arithmetic.
     std::string call(function_kind function, const std::string& arguments) const override {
-        return fmt::format("{}({})", to_string(function), arguments);
+        const bool delayed = function == function_kind::sign && arguments.find(' ') != std::string::npos;
+        return fmt::format("{}({})", to_string(function), delayed ? fmt::format("Scalar({})", arguments) : arguments);
     }
     std::string definition(const std::string& name, const std::string& value) const override {
         return fmt::format("const Scalar {} = {};", name, value);

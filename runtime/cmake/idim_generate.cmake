@@ -19,7 +19,7 @@ function(_idim_model_files language name result)
     set(${result} ${in_double} ${in_float} tables.c ${name}.h PARENT_SCOPE)
   else()
     list(TRANSFORM models APPEND ".hpp" OUTPUT_VARIABLE headers)
-    set(${result} ${headers} functions.hpp model.hpp model_interface.cpp PARENT_SCOPE)
+    set(${result} ${headers} batch.hpp functions.hpp model.hpp pack.hpp model_interface.cpp PARENT_SCOPE)
   endif()
 endfunction()
 
