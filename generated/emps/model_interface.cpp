@@ -2,6 +2,7 @@
 // Robot emps: the models in double precision for the identifiers.
 #include "idim/model_interface.h"
 
+#include "batch.hpp"
 #include "bias.hpp"
 #include "forward_dynamics.hpp"
 #include "gravity.hpp"
@@ -11,7 +12,7 @@
 #include "regressor.hpp"
 #include "regroup.hpp"
 
-static_assert(IDIM_MODEL_ABI == 2, "this model was generated for another version of the runtime: regenerate it");
+static_assert(IDIM_MODEL_ABI == 3, "this model was generated for another version of the runtime: regenerate it");
 
 namespace model = idim_models::emps;
 
@@ -54,6 +55,18 @@ int forward_dynamics(const double* q, const double* qd, const double* tau, doubl
     return 0;
 }
 
+model::batch_samples batch(const idim_samples& samples) {
+    return {samples.count, samples.stride, samples.q, samples.qd, samples.qdd, samples.t, samples.temp};
+}
+
+void regressor_batch(const idim_samples* samples, double* W, size_t W_stride) {
+    model::regressor_batch(batch(*samples), W, W_stride);
+}
+
+void inverse_dynamics_batch(const idim_samples* samples, const double* chi, double* tau, size_t tau_stride) {
+    model::inverse_dynamics_batch(batch(*samples), chi, tau, tau_stride);
+}
+
 void regroup(const double* standard, double* chi) {
     model::regroup(standard, chi);
 }
@@ -81,6 +94,8 @@ constexpr idim_model_interface interface = {
     bias,
     gravity,
     forward_dynamics,
+    regressor_batch,
+    inverse_dynamics_batch,
     regroup,
 };
 

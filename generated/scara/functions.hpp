@@ -2,12 +2,21 @@
 // Robot scara: what the models need beside <cmath>.
 #pragma once
 
+#include <type_traits>
+
 namespace idim_models::scara {
 
-/// -1, 0 or 1.
+/// -1, 0 or 1; for a pack of numbers, in each of its lanes.
 template <class Scalar>
 constexpr Scalar sign(const Scalar& x) {
-    return Scalar(static_cast<int>(x > Scalar(0)) - static_cast<int>(x < Scalar(0)));
+    if constexpr (std::is_convertible_v<decltype(x > Scalar(0)), bool>) {
+        return Scalar(static_cast<int>(x > Scalar(0)) - static_cast<int>(x < Scalar(0)));
+    } else {
+        Scalar result(0);
+        where(x > Scalar(0), result) = Scalar(1);
+        where(x < Scalar(0), result) = Scalar(-1);
+        return result;
+    }
 }
 
 }  // namespace idim_models::scara

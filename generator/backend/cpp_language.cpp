@@ -15,8 +15,10 @@ class cpp_language : public language {
     }
 
     std::string number(const rational& value) const override { return fmt::format("Scalar({})", to_decimal(value)); }
+    /// sign is ours, and a template that does not take the expressions of types that delay their arithmetic.
     std::string call(function_kind function, const std::string& arguments) const override {
-        return fmt::format("{}({})", to_string(function), arguments);
+        const bool delayed = function == function_kind::sign && arguments.find(' ') != std::string::npos;
+        return fmt::format("{}({})", to_string(function), delayed ? fmt::format("Scalar({})", arguments) : arguments);
     }
     std::string base_place(const std::string& /*robot*/, const std::string& parameter) const override {
         return "base_index::" + parameter;

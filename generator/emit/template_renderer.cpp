@@ -235,6 +235,10 @@ context_data robot_values(const template_context& context, const std::string& fo
     result.set("time_argument", context.uses_time ? "double t" : "double");
     result.set("temp_argument", context.uses_temperature ? "const double* temp" : "const double*");
     result.set("signals", std::string(context.uses_time ? "t, " : "") + (context.uses_temperature ? "temp, " : ""));
+    result.set("packed_signals",
+               std::string(context.uses_time ? "at.t, " : "") + (context.uses_temperature ? "at.temp, " : ""));
+    result.set_flag("uses_time", context.uses_time);
+    result.set_flag("uses_temperature", context.uses_temperature);
     result.set("needs_time", context.uses_time ? "1" : "0");
     result.set("needs_temperature", context.uses_temperature ? "1" : "0");
     return result;

@@ -19,7 +19,7 @@ function(_idim_model_files language name result)
     set(${result} ${in_double} ${in_float} tables.c ${name}.h PARENT_SCOPE)
   else()
     list(TRANSFORM models APPEND ".hpp" OUTPUT_VARIABLE headers)
-    set(${result} ${headers} functions.hpp model.hpp model_interface.cpp PARENT_SCOPE)
+    set(${result} ${headers} batch.hpp functions.hpp model.hpp pack.hpp model_interface.cpp PARENT_SCOPE)
   endif()
 endfunction()
 
@@ -39,7 +39,8 @@ function(_idim_read_robot robot_file name urdf_file)
     endif()
     string(REGEX MATCH "\nname:[ \t]*[\"']?([A-Za-z0-9_]*)" found "\n${text}")
   endif()
-  string(MAKE_C_IDENTIFIER "${CMAKE_MATCH_1}" identifier)
+  string(REGEX REPLACE "[^A-Za-z0-9]" "_" identifier "${CMAKE_MATCH_1}")
+  string(REGEX REPLACE "^([^A-Za-z])" "r\\1" identifier "${identifier}") # as the generator reads the names of a URDF
   set(${name} "${identifier}" PARENT_SCOPE)
 endfunction()
 

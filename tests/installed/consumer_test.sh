@@ -124,6 +124,26 @@ BuildKnowsEveryFileOfTheManifest() {
     done
 }
 
+# Both models come from one URDF: a change of it makes both again, and their users, in one run of the build.
+UrdfRobotsAreGeneratedAgainToo() {
+    mine=$WORK/consumer-urdf
+    build=$mine/build
+    rm -rf "$mine"
+    cp -r "$SOURCE/tests/consumer/urdf" "$mine"
+    if ! "$idim" base "$mine/two-arm.urdf" >/dev/null 2>&1; then
+        echo "skipped: this generator does not read URDF"
+        exit 77
+    fi
+    cmake -S "$mine" -B "$build" -DCMAKE_PREFIX_PATH="$tree" >"$mine/configure.log" || { cat "$mine/configure.log"; fail "does not configure"; }
+    run_build
+    local before again
+    before=$("$build/inputs")
+    sed -i 's/xyz="0.4 0 0"/xyz="0.5 0 0"/' "$mine/two-arm.urdf"
+    run_build
+    again=$(join -v 1 <(sort <<<"$before") <("$build/inputs" | sort) | wc -l)
+    same "models generated again" 2 "$again"
+}
+
 BuildsWithPkgConfig() {
     rm -rf "$mine"
     cp -r "$SOURCE/tests/consumer" "$mine"

@@ -29,6 +29,9 @@ inline std::string robot_file(const std::string& robot) {
     return source_folder + "/robots/" + robot + "/" + robot + ".yaml";
 }
 
+/// Two joints with an effect that calls every function an expression may call; depends on time and temperatures.
+inline const std::string effects_arm_file = source_folder + "/tests/support/effects_arm/effects_arm.yaml";
+
 /// Every folder in a folder of the sources, in alphabetical order.
 inline std::vector<std::string> folders_in(const std::string& parent) {
     std::vector<std::string> names;
