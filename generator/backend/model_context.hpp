@@ -28,6 +28,6 @@ template_context build_context(const robot_model& model, const std::string& vers
                                model_operations& operations);
 
 /// Counts for the same robot without its effects.
-model_operations count_rigid(const robot_model& rigid);
+model_operations count_rigid(const robot_model& model);
 
 }  // namespace idim::generator

@@ -139,6 +139,11 @@ base_parameter_set find_base_parameters(const kinematic_tree& tree, const standa
         base.formula = formula(tree, parameters, base);
         result.parameters.push_back(base);
     }
+    result.rigid.kept = groups.kept_of_rigid();
+    std::sort(result.rigid.kept.begin(), result.rigid.kept.end());
+    for (const std::size_t p : result.rigid.kept) {
+        result.rigid.names.push_back(parameters.all[p].name);
+    }
     for (std::size_t p = 0; p < parameters.all.size(); ++p) {
         const auto in = [p](const std::vector<std::size_t>& list) {
             return std::find(list.begin(), list.end(), p) != list.end();

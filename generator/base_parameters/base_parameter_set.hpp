@@ -47,6 +47,7 @@ struct base_parameter_set {
     int standard = 0;                        ///< number of standard parameters
     std::vector<std::size_t> without_effect;
     rank_evidence evidence;
+    parameter_selection rigid;  ///< base parameters of the same links without effects, under their standard names
 
     parameter_selection selection() const;
 };

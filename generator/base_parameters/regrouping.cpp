@@ -104,10 +104,19 @@ regrouping::regrouping(const standard_regressor& W, const kinematic_tree& tree, 
             rows.append(row);
         }
     }
-    own_ = select_exactly(std::move(rows), preference);
+    own_ = select_exactly(rows, preference);
+    const std::vector<std::size_t> rigid = without_effects(preference);
+    kept_of_rigid_ = rigid.size() == preference.size() ? own_.kept : select_exactly(rows, rigid).kept;
     for (const std::size_t p : own_.kept) {
         is_kept_[p] = true;
     }
+}
+
+std::vector<std::size_t> regrouping::without_effects(const std::vector<std::size_t>& columns) const {
+    std::vector<std::size_t> result;
+    std::copy_if(columns.begin(), columns.end(), std::back_inserter(result),
+                 [this](std::size_t p) { return parameters_.all[p].kind != parameter_kind::effect; });
+    return result;
 }
 
 std::vector<prime_field> regrouping::draw_constants(std::uint64_t seed) const {
@@ -169,23 +178,13 @@ std::vector<std::size_t> regrouping::columns_of(const std::vector<std::size_t>& 
     return result;
 }
 
-std::vector<std::size_t> regrouping::inertial_columns(int link) const {
-    std::vector<std::size_t> result;
-    for (std::size_t p = 0; p < parameters_.all.size(); ++p) {
-        if (parameters_.all[p].joint == link && parameters_.all[p].kind != parameter_kind::effect) {
-            result.push_back(p);
-        }
-    }
-    return result;
-}
-
 regrouping::link_relation regrouping::relation_of(int link) const {
     link_relation relation;
     relation.columns = columns_of(own_.kept, link);
     relation.groups = constants_of(tree_.joints[static_cast<std::size_t>(link)]);
     const int antecedent = tree_.joints[static_cast<std::size_t>(link)].antecedent;
     if (antecedent >= 0) {
-        const std::vector<std::size_t> inner = inertial_columns(antecedent);
+        const std::vector<std::size_t> inner = without_effects(columns_of(positions(W_.columns), antecedent));
         relation.columns.insert(relation.columns.end(), inner.begin(), inner.end());
     }
     relation.first_target = relation.columns.size();

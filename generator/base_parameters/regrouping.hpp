@@ -29,6 +29,8 @@ class regrouping {
 
     /// Decision at the robot's own constants.
     const exact_selection& selection() const { return own_; }
+    /// What is kept where the robot has no effects, in the order of preference.
+    const std::vector<std::size_t>& kept_of_rigid() const { return kept_of_rigid_; }
     /// Number of rational points.
     int points() const { return points_; }
 
@@ -63,7 +65,7 @@ class regrouping {
     /// Groups of the constants that enter one joint's transform: a length, or cosine and sine of an angle.
     std::vector<std::vector<std::size_t>> constants_of(const kinematic_joint& joint) const;
     std::vector<std::size_t> columns_of(const std::vector<std::size_t>& among, int link) const;
-    std::vector<std::size_t> inertial_columns(int link) const;
+    std::vector<std::size_t> without_effects(const std::vector<std::size_t>& columns) const;
 
     /// Random constants, cosine and sine of one angle on the circle.
     std::vector<prime_field> draw_constants(std::uint64_t seed) const;
@@ -90,6 +92,7 @@ class regrouping {
     std::vector<rational> own_constants_;
     exact_selection own_;
     std::vector<bool> is_kept_;
+    std::vector<std::size_t> kept_of_rigid_;
 };
 
 }  // namespace idim::generator
