@@ -41,14 +41,16 @@ class context_data {
         }
         data_.set(key, entries);
     }
-    /// Lines of a section whose tag is "text"; the tag is known even where there is no line.
+    /// Lines of a section whose tag is "text"; the tag is known even where there is no line. There are thousands of
+    /// them, so they are put in place with as few copies as the library allows.
     void set_lines(const std::string& key, const std::vector<std::string>& lines) {
-        std::vector<context_data> list;
+        kainjow::mustache::list entries;
+        entries.reserve(lines.size());
         for (const std::string& line : lines) {
-            list.emplace_back().set("text", line);
+            entries.emplace_back("text", line);
         }
-        keys_.insert("text");
-        set(key, list);
+        keys_.insert({key, "text"});
+        data_[key] = data{entries};
     }
     /// A partial stands on a line of its own, so its last line break is the template's.
     void set_partial(const std::string& key, std::string text) {
