@@ -74,6 +74,14 @@ std::vector<constant_polynomial> fit(const std::vector<monomial>& monomials, con
     return result;
 }
 
+bool enters(const GiNaC::symbol& symbol, const kinematic_joint& joint) {
+    const std::array<ex, 8> entries = {joint.b,         joint.d,         joint.r,         joint.position()[2],
+                                       joint.gamma.cos, joint.alpha.cos, joint.theta.cos, joint.theta.sin};
+    return std::any_of(entries.begin(), entries.end(), [&symbol](const ex& e) { return e.has(symbol); }) ||
+           std::any_of(joint.rates.begin(), joint.rates.end(),
+                       [&symbol](const joint_rate& rate) { return rate.factor.has(symbol); });
+}
+
 std::vector<prime_field> values_of(const std::vector<monomial>& monomials, const std::vector<prime_field>& constants) {
     std::vector<prime_field> result;
     for (const monomial& m : monomials) {
@@ -151,20 +159,17 @@ regrouping::constants_draw regrouping::draw(std::size_t s, const std::vector<std
     return result;
 }
 
-std::vector<std::vector<std::size_t>> regrouping::constants_of(const kinematic_joint& joint) const {
+std::vector<std::vector<std::size_t>> regrouping::constants_of(const std::vector<int>& joints) const {
     std::vector<std::vector<std::size_t>> groups;
     for (std::size_t i = 0; i < tree_.constants.size(); ++i) {
         const kinematic_constant& constant = tree_.constants[i];
         const GiNaC::symbol& symbol = tree_.constants[constant.is_sine ? i - 1 : i].symbol;
-        const std::array<ex, 8> entries = {joint.b,         joint.d,         joint.r,         joint.position()[2],
-                                           joint.gamma.cos, joint.alpha.cos, joint.theta.cos, joint.theta.sin};
-        const bool enters =
-            std::any_of(entries.begin(), entries.end(), [&symbol](const ex& e) { return e.has(symbol); }) ||
-            std::any_of(joint.rates.begin(), joint.rates.end(),
-                        [&symbol](const joint_rate& rate) { return rate.factor.has(symbol); });
-        if (enters && constant.is_sine) {
+        const bool enters_any = std::any_of(joints.begin(), joints.end(), [this, &symbol](int joint) {
+            return enters(symbol, tree_.joints[static_cast<std::size_t>(joint)]);
+        });
+        if (enters_any && constant.is_sine) {
             groups.back().push_back(i);
-        } else if (enters) {
+        } else if (enters_any) {
             groups.push_back({i});
         }
     }
@@ -181,12 +186,15 @@ std::vector<std::size_t> regrouping::columns_of(const std::vector<std::size_t>& 
 regrouping::link_relation regrouping::relation_of(int link) const {
     link_relation relation;
     relation.columns = columns_of(own_.kept, link);
-    relation.groups = constants_of(tree_.joints[static_cast<std::size_t>(link)]);
-    const int antecedent = tree_.joints[static_cast<std::size_t>(link)].antecedent;
-    if (antecedent >= 0) {
-        const std::vector<std::size_t> inner = without_effects(columns_of(positions(W_.columns), antecedent));
-        relation.columns.insert(relation.columns.end(), inner.begin(), inner.end());
+    std::vector<int> joints;
+    std::vector<std::size_t> inner;
+    for (int at = link; at >= 0 && inner.empty();) {
+        joints.push_back(at);
+        at = tree_.joints[static_cast<std::size_t>(at)].antecedent;
+        inner = without_effects(columns_of(positions(W_.columns), at));
     }
+    relation.columns.insert(relation.columns.end(), inner.begin(), inner.end());
+    relation.groups = constants_of(joints);
     relation.first_target = relation.columns.size();
     const std::vector<std::size_t> targets = columns_of(own_.dropped, link);
     relation.columns.insert(relation.columns.end(), targets.begin(), targets.end());

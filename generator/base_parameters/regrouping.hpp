@@ -35,10 +35,11 @@ class regrouping {
     int points() const { return points_; }
 
     /// All coefficients as polynomials in the constants, link by link as in the closed-form rules (Gautier and Khalil
-    /// 1990): a dropped column of a link is a combination of the link's kept ones and of its antecedent's, with
-    /// coefficients in the constants of this one joint, which eliminations at random constants determine. Inserted into
-    /// each other from the base outward they give the coefficients in the kept columns. Where a column is no such
-    /// combination its coefficients are numbers. `sampled`: the regressor at random states, for their size by QR.
+    /// 1990): a dropped column of a link is a combination of the link's kept ones and of its antecedent's (across
+    /// massless links: of the next one inward that has parameters), with coefficients in the constants of the joints
+    /// between, which eliminations at random constants determine. Inserted into each other from the base outward they
+    /// give the coefficients in the kept columns. Where a column is no such combination its coefficients are numbers.
+    /// `sampled`: the regressor at random states, for their size by QR.
     std::vector<regrouped_column> columns(const Eigen::MatrixXd& sampled);
 
     /// Inserts the coefficients at every rational point, in CLN rationals. Throws rank_disagreement where a dropped
@@ -62,8 +63,8 @@ class regrouping {
     };
 
     link_relation relation_of(int link) const;
-    /// Groups of the constants that enter one joint's transform: a length, or cosine and sine of an angle.
-    std::vector<std::vector<std::size_t>> constants_of(const kinematic_joint& joint) const;
+    /// Groups of the constants that enter the transforms of some joints: a length, or cosine and sine of an angle.
+    std::vector<std::vector<std::size_t>> constants_of(const std::vector<int>& joints) const;
     std::vector<std::size_t> columns_of(const std::vector<std::size_t>& among, int link) const;
     std::vector<std::size_t> without_effects(const std::vector<std::size_t>& columns) const;
 

@@ -140,8 +140,9 @@ class graph_builder {
     }
 
     signed_node build_product(const ordered& product_of) {
-        signed_node product = graph_.one();
-        signed_node divisor = graph_.one();
+        const signed_node one = graph_.one();
+        signed_node product = one;
+        signed_node divisor = one;
         for (const ordered& operand : product_of.operands) {
             if (is_reciprocal(operand.value)) {
                 const signed_node factor = build_power(operand.value.op(0), -operand.value.op(1));
@@ -151,7 +152,7 @@ class graph_builder {
                 product = graph_.multiply(product, factor);
             }
         }
-        return graph_.divide(product, divisor);
+        return divisor == one ? product : graph_.divide(product, divisor);
     }
 
     static bool is_reciprocal(const ex& e) {
