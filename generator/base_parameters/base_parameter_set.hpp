@@ -58,9 +58,13 @@ struct base_parameter_set {
 /// preference by QR (Gautier 1991): so that the names come out as in the literature, first XX XY XZ YZ ZZ MX MY of
 /// revolute and MX MY MZ M of prismatic links from the last link to the first, then the effects, then the rest. The
 /// decision is proven in exact arithmetic at rational points: independence of the kept columns modulo a prime (a lower
-/// bound of the rank over the rationals), dependence of the dropped ones by inserting the regrouping formulas in CLN
-/// rationals (an upper bound; but see rank_evidence::modulo_prime_only). The formulas come link by link, see
+/// bound of the rank over the rationals); dependence of the dropped ones modulo that prime in every row, and over the
+/// rationals by inserting the regrouping formulas in CLN rationals into the rows' combination by random virtual
+/// velocities (an upper bound; but see rank_evidence::modulo_prime_only). The formulas come link by link, see
 /// regrouping. Throws rank_disagreement where QR and exact rank differ.
+///
+/// Time for n joints: evaluations grow with n^2 (rows times links), the QR and the elimination with n^3, which shows
+/// beyond some fifty joints.
 base_parameter_set find_base_parameters(const kinematic_tree& tree, const standard_parameters& parameters);
 
 }  // namespace idim::generator

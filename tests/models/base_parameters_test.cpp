@@ -4,6 +4,7 @@
 
 #include <Eigen/SVD>
 #include <algorithm>
+#include <map>
 #include <random>
 
 #include "base_parameters/base_parameter_set.hpp"
@@ -200,6 +201,51 @@ TEST(RegroupingOfObliqueAxes, FollowsTheClosedRulesByFormulasProvenInRationals) 
     ASSERT_NE(mx2, base.parameters.end());
     EXPECT_EQ(mx2->regroups, "MX2 + D*M3 + D*M4");
     expect_closed_rules(file);
+}
+
+TEST(RegroupingAcrossMasslessLinks, IsByFormulasInTheConstantsBetween) {
+    // A universal joint: the second link has no mass, and the axes of joints 2 and 3 meet in a point that both link 1
+    // and link 3 hold. A mass there belongs to either: M3 - h MZ3 + h^2 (XX3 + YY3) = d^2 ZZ1 + d MX1.
+    const temporary_folder folder;
+    const generator::base_report base =
+        generator::find_base(folder.write("universal.yaml",
+                                          "name: universal\nconstants: {d: 0.3, h: 0.2}\njoints:\n"
+                                          "  - {name: j1, alpha: pi/2, theta: q}\n"
+                                          "  - {name: j2, alpha: pi/2, d: d, theta: q, massless: true}\n"
+                                          "  - {name: j3, alpha: pi/2, theta: q, r: h}\n"),
+                             templates_folder);
+    EXPECT_EQ(base.modulo_prime_only, 0);
+    EXPECT_EQ(base.standard, 20);
+    std::map<std::string, std::string> regrouped;
+    for (const generator::parameter_context& parameter : base.parameters) {
+        if (parameter.name != parameter.regroups) {
+            regrouped[parameter.name] = parameter.regroups;
+        }
+    }
+    const std::map<std::string, std::string> expected = {{"ZZ1R", "ZZ1 + d^2*M3"},
+                                                         {"MX1R", "MX1 + d*M3"},
+                                                         {"XX3R", "XX3 - h^2*M3"},
+                                                         {"YY3R", "YY3 - h^2*M3"},
+                                                         {"MZ3R", "MZ3 + h*M3"}};
+    EXPECT_EQ(regrouped, expected);
+}
+
+TEST(RigidLinksAlone, HaveTheOperationsOfTheRobotWithoutEffects) {
+    const auto counts = [](const generator::operation_table& table) {
+        std::vector<int> numbers;
+        for (const generator::operation_count& c :
+             {table.inverse_dynamics, table.regressor, table.mass_matrix, table.forward_dynamics}) {
+            numbers.insert(numbers.end(), {c.mul, c.add, c.div, c.functions});
+        }
+        return numbers;
+    };
+    for (const std::string& robot : robot_names()) {
+        const temporary_folder folder;
+        const std::string without = write_variant(folder, robot, rigid);
+        EXPECT_EQ(counts(generator::generate(robot_file(robot), templates_folder).rigid_operations),
+                  counts(generator::generate(without, templates_folder).operations))
+            << robot;
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(RevoluteRobots, Regrouping,
