@@ -100,10 +100,8 @@ regrouping::regrouping(const standard_regressor& W, const kinematic_tree& tree, 
       evaluator_(W.graph, [](const rational& value) { return to_field(value); }),
       // Rows for the largest rank there can be, and some to spare: rows of outer joints see few columns.
       points_(static_cast<int>(W.columns / W.dof) + 3),
+      own_constants_(constant_values(tree)),
       is_kept_(W.columns, false) {
-    for (const kinematic_constant& constant : tree.constants) {
-        own_constants_.push_back(cln::the<cln::cl_RA>(constant.value.to_cl_N()));
-    }
     const std::vector<prime_field> constants = to_field(own_constants_);
     field_matrix rows(W.columns);
     for (int s = 0; s < points_; ++s) {

@@ -42,9 +42,10 @@ class regrouping {
     /// `sampled`: the regressor at random states, for their size by QR.
     std::vector<regrouped_column> columns(const Eigen::MatrixXd& sampled);
 
-    /// Inserts the coefficients into the combined row of every rational point, in CLN rationals. Throws rank_disagreement where a dropped
-    /// column is not this combination of the kept ones. Returns the number of dropped columns left out because a
-    /// coefficient is no exact number: for these the elimination modulo a prime is the evidence.
+    /// Inserts the coefficients into the combined row of every rational point, in CLN rationals. Throws
+    /// rank_disagreement where a dropped column is not this combination of the kept ones. Returns the number of dropped
+    /// columns left out because a coefficient is no exact number: for these the elimination modulo a prime is the
+    /// evidence.
     int prove(const std::vector<regrouped_column>& columns) const;
 
   private:

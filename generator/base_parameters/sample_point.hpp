@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <map>
 #include <random>
 #include <type_traits>
@@ -90,14 +91,44 @@ class sample_point {
         return symbols;
     }
 
-    const std::pair<T, T>& circle(int node) {
+    /// Cosine and sine.
+    using circle_point = std::pair<T, T>;
+
+    static circle_point sum(const circle_point& a, const circle_point& b) {
+        return {a.first * b.first - a.second * b.second, a.second * b.first + a.first * b.second};
+    }
+
+    const circle_point& circle(int node) {
         const auto known = circles_.find(node);
         if (known != circles_.end()) {
             return known->second;
         }
+        const composed_angle* angle = W_.angles.find(node);
+        return circles_.emplace(node, angle == nullptr ? free_circle(node) : composed(*angle)).first->second;
+    }
+
+    circle_point composed(const composed_angle& angle) {
+        circle_point result{integer(1), integer(0)};
+        if (angle.constant) {
+            result = {T(angle.constant->first), T(angle.constant->second)};
+        }
+        for (const auto& [node, multiple] : angle.terms) {
+            const auto& [cosine, sine] = free_circle(node);
+            for (int i = 0; i < std::abs(multiple); ++i) {
+                result = sum(result, {cosine, multiple < 0 ? T(-sine) : sine});
+            }
+        }
+        return result;
+    }
+
+    const circle_point& free_circle(int node) {
+        const auto known = free_circles_.find(node);
+        if (known != free_circles_.end()) {
+            return known->second;
+        }
         const T t = draw();
         const T norm = integer(1) + t * t;
-        return circles_.emplace(node, std::pair((integer(1) - t * t) / norm, integer(2) * t / norm)).first->second;
+        return free_circles_.emplace(node, std::pair((integer(1) - t * t) / norm, integer(2) * t / norm)).first->second;
     }
 
     T sign(int node) { return signs_.try_emplace(node, integer(random_() % 2 == 0 ? 1 : -1)).first->second; }
@@ -110,7 +141,7 @@ class sample_point {
     const standard_regressor& W_;
     std::mt19937_64 random_;
     std::vector<T> symbols_;
-    std::map<int, std::pair<T, T>> circles_;
+    std::map<int, circle_point> circles_, free_circles_;
     std::map<int, T> signs_;
     std::map<std::pair<function_kind, int>, T> others_;
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base_parameters/angle_relations.hpp"
 #include "dynamics/dynamic_models.hpp"
 #include "graph/expression_graph.hpp"
 
@@ -9,6 +10,7 @@ namespace idim::generator {
 /// row i of W_st, any other v a combination of its rows, with the same relations between the columns.
 struct standard_regressor {
     expression_graph graph;  ///< output k is column k
+    angle_relations angles;
     std::size_t dof = 0;
     std::size_t columns = 0;
 

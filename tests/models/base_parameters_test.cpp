@@ -230,6 +230,33 @@ TEST(RegroupingAcrossMasslessLinks, IsByFormulasInTheConstantsBetween) {
     EXPECT_EQ(regrouped, expected);
 }
 
+TEST(CoupledJoints, HaveTheRankOfTheKdlRegressorOfTheirCoordinates) {
+    // A link that turns with the base of its parallelogram and one that turns twice against the third: the angles q2,
+    // q3 - q2 and 2 q3 are not independent.
+    const temporary_folder folder;
+    const std::string head = "name: coupled\njoints:\n  - {name: j1, theta: q}\n";
+    const auto rows = [](const std::string& third, const std::string& fourth) {
+        return "  - {name: j2, alpha: pi/2, d: 0.3, theta: q}\n  - {name: j3, d: 0.4, theta: " + third +
+               "}\n  - {name: j4, d: 0.2, theta: " + fourth + "}\n";
+    };
+    const generator::base_report coupled =
+        generator::find_base(folder.write("coupled.yaml", head + rows("q - q_j2", "-2*q_j3")), templates_folder);
+    const mdh_table table = mdh_table_of(generator::read_robot(folder.write("free.yaml", head + rows("q", "q"))));
+    Eigen::MatrixXd G(4, 3);  // joint velocities by coordinates
+    G << 1, 0, 0, 0, 1, 0, 0, -1, 1, 0, 0, -2;
+    Eigen::MatrixXd W(3 * 30, 40);
+    std::mt19937_64 random(13);
+    for (Eigen::Index k = 0; k < 30; ++k) {
+        const joint_state s = random_state(3, random);
+        W.middleRows(3 * k, 3) = G.transpose() * kdl_regressor(table, {G * s.q, G * s.qd, G * s.qdd});
+    }
+    const rank_by_svd svd = find_rank(W);
+    EXPECT_EQ(static_cast<Eigen::Index>(coupled.parameters.size()), svd.rank);
+    EXPECT_EQ(coupled.exact_rank, coupled.qr_rank);
+    EXPECT_GT(svd.smallest_counted, 1e-6);
+    EXPECT_LT(svd.largest_left, 1e-13);
+}
+
 TEST(RigidLinksAlone, HaveTheOperationsOfTheRobotWithoutEffects) {
     const auto counts = [](const generator::operation_table& table) {
         std::vector<int> numbers;
