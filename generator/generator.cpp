@@ -12,12 +12,9 @@ namespace idim::generator {
 
 namespace {
 
-robot_model load(const std::string& robot_file, const std::string& templates, bool rigid = false) {
+robot_model load(const std::string& robot_file, const std::string& templates) {
     robot_model model;
     model.description = read_robot(robot_file);
-    if (rigid) {
-        model.description.effects.clear();
-    }
     for (const effect_use& use : model.description.effects) {
         model.effects.push_back(find_effect(use, model.description, templates + "/effects"));
     }
@@ -105,7 +102,7 @@ generated_model generate(const std::string& robot_file, const std::string& templ
     result.files = render(context, templates + "/" + options.target);
     result.files.push_back(manifest_of(model, context, result));
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    result.rigid_operations = table(count_rigid(load(robot_file, templates, true)));
+    result.rigid_operations = model.description.effects.empty() ? result.operations : table(count_rigid(model));
     return result;
 }
 

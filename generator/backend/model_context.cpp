@@ -220,10 +220,10 @@ template_context build_context(const robot_model& model, const file_origin& orig
     return context;
 }
 
-model_operations count_rigid(const robot_model& rigid) {
-    const auto count = [&rigid](const model_builder& build) {
+model_operations count_rigid(const robot_model& model) {
+    const auto count = [&model](const model_builder& build) {
         return count_operations(
-            build_graph(build(rigid.tree, rigid.parameters, rigid.base.selection()), constants_as::values));
+            build_graph(build(model.tree, model.parameters, model.base.rigid), constants_as::values));
     };
     return {count(inverse_dynamics_model), count(regressor_model), count(mass_matrix_model),
             count(forward_dynamics_model)};

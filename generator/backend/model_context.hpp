@@ -37,6 +37,6 @@ template_context build_context(const robot_model& model, const file_origin& orig
                                model_operations& operations);
 
 /// Counts for the same robot without its effects.
-model_operations count_rigid(const robot_model& rigid);
+model_operations count_rigid(const robot_model& model);
 
 }  // namespace idim::generator

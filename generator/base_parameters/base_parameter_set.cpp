@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <numeric>
+#include <random>
 
 #include "base_parameters/column_selection.hpp"
 #include "base_parameters/regrouping.hpp"
-#include "base_parameters/sample_point.hpp"
 #include "base_parameters/standard_regressor.hpp"
+#include "graph/evaluate.hpp"
 
 namespace idim::generator {
 
@@ -46,22 +47,26 @@ std::vector<std::size_t> preference_order(const kinematic_tree& tree, const stan
 
 /// W_st at random states of order one, rows at least twice the columns.
 Eigen::MatrixXd sample_regressor(const standard_regressor& W, const kinematic_tree& tree) {
-    const int samples = 2 * (W.columns / W.dof + 1);
-    Eigen::MatrixXd sampled = Eigen::MatrixXd::Zero(samples * W.dof, W.columns);
+    const std::size_t samples = 2 * (W.columns / W.dof + 1);
+    Eigen::MatrixXd sampled(static_cast<Eigen::Index>(samples * W.dof), static_cast<Eigen::Index>(W.columns));
     std::mt19937_64 random(1);
     const auto uniform = [&random] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1.0; };
-    double_arithmetic arithmetic;
-    for (int s = 0; s < samples; ++s) {
-        std::vector<double> values;
-        for (const graph_symbol& symbol : W.graph.symbols()) {
-            const double drawn = symbol.role == symbol_role::position ? 3.0 * uniform() : 2.0 * uniform();
-            values.push_back(symbol.role == symbol_role::constant
-                                 ? tree.constants[static_cast<std::size_t>(symbol.index)].value.to_double()
-                                 : drawn);
+    graph_evaluator<double> evaluator(W.graph, double_arithmetic::number);
+    double_arithmetic functions;
+    const std::vector<graph_symbol>& symbols = W.graph.symbols();
+    for (Eigen::Index row = 0; row < sampled.rows();) {
+        std::vector<double> values(symbols.size(), 0.0);
+        for (std::size_t i = 0; i < W.first_virtual(); ++i) {
+            const double drawn = symbols[i].role == symbol_role::position ? 3.0 * uniform() : 2.0 * uniform();
+            values[i] = symbols[i].role == symbol_role::constant
+                            ? tree.constants[static_cast<std::size_t>(symbols[i].index)].value.to_double()
+                            : drawn;
         }
-        const std::vector<double> entries = evaluate(W.graph, values, arithmetic);
-        for (std::size_t k = 0; k < entries.size(); ++k) {
-            sampled(s * W.dof + W.row_of_output[k], W.column_of_output[k]) = entries[k];
+        for (std::size_t v = W.first_virtual(); v < values.size(); ++v) {
+            values[v] = 1.0;
+            const std::vector<double> columns = evaluator.evaluate(values, functions);
+            sampled.row(row++) = Eigen::Map<const Eigen::RowVectorXd>(columns.data(), sampled.cols());
+            values[v] = 0.0;
         }
     }
     return sampled;
@@ -103,14 +108,15 @@ parameter_selection base_parameter_set::selection() const {
 base_parameter_set find_base_parameters(const kinematic_tree& tree, const standard_parameters& parameters) {
     const standard_regressor W = build_standard_regressor(tree, parameters);
     const std::vector<std::size_t> preference = preference_order(tree, parameters);
-    const column_selection by_qr = select_by_qr(sample_regressor(W, tree), preference, qr_tolerance);
+    const Eigen::MatrixXd sampled = sample_regressor(W, tree);
+    const column_selection by_qr = select_by_qr(sampled, preference, qr_tolerance);
     regrouping groups(W, tree, parameters, preference);
     compare(by_qr, groups.selection());
-    const std::vector<regrouped_column> columns = groups.columns(by_qr.beta);
+    const std::vector<regrouped_column> columns = groups.columns(sampled);
     const int modulo_prime_only = groups.prove(columns);
 
     base_parameter_set result;
-    result.standard = W.columns;
+    result.standard = static_cast<int>(W.columns);
     result.evidence = {static_cast<int>(by_qr.kept.size()),
                        by_qr.smallest_kept,
                        by_qr.largest_dropped,
@@ -132,6 +138,11 @@ base_parameter_set find_base_parameters(const kinematic_tree& tree, const standa
         base.name += base.regrouped.empty() ? "" : "R";
         base.formula = formula(tree, parameters, base);
         result.parameters.push_back(base);
+    }
+    result.rigid.kept = groups.kept_of_rigid();
+    std::sort(result.rigid.kept.begin(), result.rigid.kept.end());
+    for (const std::size_t p : result.rigid.kept) {
+        result.rigid.names.push_back(parameters.all[p].name);
     }
     for (std::size_t p = 0; p < parameters.all.size(); ++p) {
         const auto in = [p](const std::vector<std::size_t>& list) {

@@ -2,7 +2,9 @@
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <numeric>
 #include <optional>
+#include <utility>
 
 namespace idim::generator {
 
@@ -32,65 +34,107 @@ column_selection select_by_qr(const Eigen::MatrixXd& W, const std::vector<std::s
             result.largest_dropped = std::max(result.largest_dropped, rest);
         }
     }
-    if (!result.kept.empty() && !result.dropped.empty()) {
-        const Eigen::MatrixXd kept = W(Eigen::all, result.kept);
-        const Eigen::MatrixXd dropped = W(Eigen::all, result.dropped);
-        result.beta = kept.householderQr().solve(dropped);
-    }
     return result;
+}
+
+Eigen::MatrixXd express_by_qr(const Eigen::MatrixXd& W, const std::vector<std::size_t>& kept,
+                              const std::vector<std::size_t>& dropped) {
+    const Eigen::MatrixXd basis = W(Eigen::all, kept);
+    const Eigen::MatrixXd dependent = W(Eigen::all, dropped);
+    return basis.householderQr().solve(dependent);
 }
 
 namespace {
 
-using field_rows = std::vector<std::vector<prime_field>>;
+/// Rows of a matrix under elimination, sparsest first.
+class elimination {
+  public:
+    explicit elimination(field_matrix W) : W_(std::move(W)), order_(W_.rows()) {
+        std::vector<std::size_t> filled(W_.rows());
+        for (std::size_t r = 0; r < W_.rows(); ++r) {
+            filled[r] = static_cast<std::size_t>(
+                std::count_if(W_.row(r), W_.row(r) + W_.columns(), [](prime_field v) { return !v.is_zero(); }));
+        }
+        std::iota(order_.begin(), order_.end(), std::size_t{0});
+        std::stable_sort(order_.begin(), order_.end(),
+                         [&filled](std::size_t a, std::size_t b) { return filled[a] < filled[b]; });
+    }
 
-std::optional<std::size_t> pivot_row(const field_rows& rows, std::size_t first, std::size_t column) {
-    for (std::size_t r = first; r < rows.size(); ++r) {
-        if (!rows[r][column].is_zero()) {
-            return r;
-        }
-    }
-    return std::nullopt;
-}
+    prime_field at(std::size_t r, std::size_t column) const { return W_.row(order_[r])[column]; }
 
-void eliminate(field_rows& rows, std::size_t pivot, std::size_t column) {
-    const prime_field scale = rows[pivot][column].inverse();
-    for (prime_field& element : rows[pivot]) {
-        element = element * scale;
-    }
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-        if (r == pivot || rows[r][column].is_zero()) {
-            continue;
+    bool is_zero_column(std::size_t column) const { return !find(0, column); }
+
+    /// Makes the column that of a unit matrix in row `rank`, with a row from there on; false where there is none.
+    bool reduce(std::size_t rank, std::size_t column) {
+        const auto pivot = find(rank, column);
+        if (!pivot) {
+            return false;
         }
-        const prime_field factor = rows[r][column];
-        for (std::size_t c = 0; c < rows[r].size(); ++c) {
-            rows[r][c] = rows[r][c] - factor * rows[pivot][c];
+        std::rotate(order_.begin() + static_cast<std::ptrdiff_t>(rank),
+                    order_.begin() + static_cast<std::ptrdiff_t>(*pivot),
+                    order_.begin() + static_cast<std::ptrdiff_t>(*pivot) + 1);
+        const std::vector<std::size_t> filled = scale(W_.row(order_[rank]), column);
+        for (std::size_t r = 0; r < order_.size(); ++r) {
+            if (r != rank) {
+                subtract(W_.row(order_[rank]), filled, column, W_.row(order_[r]));
+            }
+        }
+        return true;
+    }
+
+  private:
+    std::optional<std::size_t> find(std::size_t first, std::size_t column) const {
+        for (std::size_t r = first; r < order_.size(); ++r) {
+            if (!at(r, column).is_zero()) {
+                return r;
+            }
+        }
+        return std::nullopt;
+    }
+
+    /// Divides a row by its element in a column. Returns the columns where it is not zero.
+    std::vector<std::size_t> scale(prime_field* row, std::size_t column) const {
+        const prime_field factor = row[column].inverse();
+        std::vector<std::size_t> filled;
+        for (std::size_t c = 0; c < W_.columns(); ++c) {
+            if (!row[c].is_zero()) {
+                row[c] = row[c] * factor;
+                filled.push_back(c);
+            }
+        }
+        return filled;
+    }
+
+    static void subtract(const prime_field* pivot, const std::vector<std::size_t>& filled, std::size_t column,
+                         prime_field* row) {
+        const prime_field factor = row[column];
+        if (!factor.is_zero()) {
+            for (const std::size_t c : filled) {
+                row[c] = row[c] - factor * pivot[c];
+            }
         }
     }
-}
+
+    field_matrix W_;
+    std::vector<std::size_t> order_;
+};
 
 }  // namespace
 
-exact_selection select_exactly(field_rows rows, const std::vector<std::size_t>& preference) {
+exact_selection select_exactly(field_matrix W, const std::vector<std::size_t>& preference) {
     exact_selection result;
+    elimination rows(std::move(W));
     for (const std::size_t p : preference) {
-        const bool is_zero_column = !pivot_row(rows, 0, p);
-        if (is_zero_column) {
-            continue;
-        }
-        const std::size_t rank = result.kept.size();
-        if (const auto pivot = pivot_row(rows, rank, p)) {
-            std::swap(rows[rank], rows[*pivot]);
-            eliminate(rows, rank, p);
+        if (rows.reduce(result.kept.size(), p)) {
             result.kept.push_back(p);
-        } else {
+        } else if (!rows.is_zero_column(p)) {
             result.dropped.push_back(p);
         }
     }
     for (std::size_t k = 0; k < result.kept.size(); ++k) {
         std::vector<prime_field> coefficients;
         for (const std::size_t d : result.dropped) {
-            coefficients.push_back(rows[k][d]);
+            coefficients.push_back(rows.at(k, d));
         }
         result.beta.push_back(coefficients);
     }

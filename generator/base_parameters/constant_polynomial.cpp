@@ -74,10 +74,6 @@ rational constant_polynomial::value(const std::vector<rational>& constants) cons
 
 std::string constant_polynomial::text(const kinematic_tree& tree) const {
     bool named = true;
-    std::vector<rational> values;
-    for (const kinematic_constant& constant : tree.constants) {
-        values.push_back(cln::the<cln::cl_RA>(constant.value.to_cl_N()));
-    }
     for (const auto& [m, coefficient] : terms) {
         named = named && cln::denominator(coefficient) < longest_denominator;
         for (const auto& [constant, exponent] : m) {
@@ -85,7 +81,7 @@ std::string constant_polynomial::text(const kinematic_tree& tree) const {
         }
     }
     if (!named) {
-        return to_decimal(value(values));
+        return to_decimal(value(constant_values(tree)));
     }
     std::string text;
     for (const auto& [m, coefficient] : terms) {
@@ -99,6 +95,14 @@ std::string constant_polynomial::text(const kinematic_tree& tree) const {
         text += factors;
     }
     return text;
+}
+
+std::vector<rational> constant_values(const kinematic_tree& tree) {
+    std::vector<rational> values;
+    for (const kinematic_constant& constant : tree.constants) {
+        values.push_back(cln::the<cln::cl_RA>(constant.value.to_cl_N()));
+    }
+    return values;
 }
 
 std::vector<monomial> candidate_monomials(const std::vector<std::vector<std::size_t>>& groups) {

@@ -31,6 +31,9 @@ struct constant_polynomial {
     std::string text(const kinematic_tree& tree) const;
 };
 
+/// Values of the robot's constants, by their index in the tree.
+std::vector<rational> constant_values(const kinematic_tree& tree);
+
 /// Monomials that may occur in the given groups of constants: degree up to two in the lengths, and up to two in cosine
 /// and sine of each angle (moving an inertia is quadratic in both). A group holds one length or the cosine and sine of
 /// one angle.

@@ -20,20 +20,6 @@ prime_field::prime_field(const rational& value) {
     *this = residue(cln::numerator(value)) / residue(cln::denominator(value));
 }
 
-prime_field prime_field::reduced(std::uint64_t sum) {
-    prime_field result;
-    result.value_ = sum >= modulus ? sum - modulus : sum;
-    return result;
-}
-
-prime_field operator*(prime_field a, prime_field b) {
-    __extension__ using wide = unsigned __int128;
-    const wide product = static_cast<wide>(a.value_) * b.value_;
-    const auto low = static_cast<std::uint64_t>(product) & prime_field::modulus;
-    const auto high = static_cast<std::uint64_t>(product >> 61);
-    return prime_field::reduced(low + high);
-}
-
 prime_field prime_field::inverse() const {
     if (is_zero()) {
         throw std::domain_error("no inverse of zero in a prime field");

@@ -25,12 +25,21 @@ class prime_field {
     prime_field operator-() const { return prime_field(value_ == 0 ? 0 : modulus - value_); }
     friend prime_field operator+(prime_field a, prime_field b) { return reduced(a.value_ + b.value_); }
     friend prime_field operator-(prime_field a, prime_field b) { return reduced(a.value_ + modulus - b.value_); }
-    friend prime_field operator*(prime_field a, prime_field b);
+    friend prime_field operator*(prime_field a, prime_field b) {
+        __extension__ using wide = unsigned __int128;
+        const wide product = static_cast<wide>(a.value_) * b.value_;
+        const auto low = static_cast<std::uint64_t>(product) & modulus;
+        return reduced(low + static_cast<std::uint64_t>(product >> 61));
+    }
     friend prime_field operator/(prime_field a, prime_field b) { return a * b.inverse(); }
     friend bool operator==(prime_field a, prime_field b) { return a.value_ == b.value_; }
 
   private:
-    static prime_field reduced(std::uint64_t sum);
+    static prime_field reduced(std::uint64_t sum) {
+        prime_field result;
+        result.value_ = sum >= modulus ? sum - modulus : sum;
+        return result;
+    }
 
     std::uint64_t value_ = 0;
 };

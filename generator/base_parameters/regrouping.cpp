@@ -10,9 +10,9 @@
 #include <iterator>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "base_parameters/base_parameter_set.hpp"
-#include "base_parameters/sample_point.hpp"
 
 namespace idim::generator {
 
@@ -20,72 +20,17 @@ namespace {
 
 using GiNaC::ex;
 
-constexpr std::uint64_t point_height = 7;  // small rationals keep the exact proof short
+constexpr std::size_t spare_rows = 5;   // of an elimination: what holds in them too is no accident
+constexpr std::size_t spare_draws = 3;  // of a fit, likewise
 
-constant_values by_symbol(const expression_graph& graph, const std::vector<rational>& constants) {
-    constant_values values(graph.symbols().size(), rational(0));
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (graph.symbols()[i].role == symbol_role::constant) {
-            values[i] = constants[static_cast<std::size_t>(graph.symbols()[i].index)];
-        }
-    }
-    return values;
-}
-
-/// Coefficients of the candidates that reproduce `samples`, or nothing.
-std::optional<std::vector<prime_field>> fit(const std::vector<monomial>& candidates,
-                                            const std::vector<std::vector<prime_field>>& constants,
-                                            const std::vector<prime_field>& samples) {
-    if (std::all_of(samples.begin(), samples.end(), [](prime_field v) { return v.is_zero(); })) {
-        return std::vector<prime_field>(candidates.size());
-    }
-    std::vector<std::vector<prime_field>> rows;
-    for (std::size_t s = 0; s < samples.size(); ++s) {
-        std::vector<prime_field> row;
-        for (const monomial& m : candidates) {
-            row.push_back(evaluate(m, constants[s]));
-        }
-        row.push_back(samples[s]);
-        rows.push_back(row);
-    }
-    std::vector<std::size_t> order;
-    for (std::size_t c = 0; c <= candidates.size(); ++c) {
-        order.push_back(c);
-    }
-    const exact_selection solution = select_exactly(rows, order);
-    if (solution.kept.size() != candidates.size() || solution.dropped.size() != 1 ||
-        solution.dropped[0] != candidates.size()) {
-        return std::nullopt;
-    }
-    std::vector<prime_field> coefficients;
-    for (const auto& row : solution.beta) {
-        coefficients.push_back(row[0]);
-    }
-    return coefficients;
-}
-
-std::optional<constant_polynomial> polynomial(const std::vector<monomial>& candidates,
-                                              const std::vector<prime_field>& residues) {
-    constant_polynomial result;
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-        bool found = true;
-        const rational coefficient = reconstruct(residues[i], found);
-        if (!found) {
-            return std::nullopt;
-        }
-        result.add(coefficient, candidates[i]);
-    }
-    return result;
-}
-
-bool agree(const rational& exact, double by_qr) {
-    return std::abs(to_double(exact) - by_qr) < 1e-9 * std::max(1.0, std::abs(by_qr));
+prime_field to_field(const rational& value) {
+    return prime_field(value);
 }
 
 std::vector<prime_field> to_field(const std::vector<rational>& values) {
     std::vector<prime_field> result;
     for (const rational& value : values) {
-        result.emplace_back(value);
+        result.push_back(to_field(value));
     }
     return result;
 }
@@ -96,105 +41,133 @@ std::vector<std::size_t> positions(std::size_t count) {
     return result;
 }
 
-/// The given columns of the rows that are not zero in all of them, as many as an elimination needs.
-std::vector<std::vector<prime_field>> restrict_to(const std::vector<std::vector<prime_field>>& rows,
-                                                  const std::vector<std::size_t>& columns) {
-    std::vector<std::vector<prime_field>> result;
-    for (const auto& row : rows) {
+/// Appends some columns of the first rows of a matrix.
+void append_columns(const field_matrix& from, const std::vector<std::size_t>& columns, std::size_t rows,
+                    field_matrix& to) {
+    for (std::size_t r = 0; r < std::min(rows, from.rows()); ++r) {
         std::vector<prime_field> part;
         for (const std::size_t c : columns) {
-            part.push_back(row[c]);
+            part.push_back(from.row(r)[c]);
         }
-        const bool empty = std::all_of(part.begin(), part.end(), [](prime_field v) { return v.is_zero(); });
-        if (!empty && result.size() < columns.size() + 5) {
-            result.push_back(part);
+        to.append(part);
+    }
+}
+
+/// Polynomials in the given monomials through several samples of values: column m + i of `samples` holds value i, the
+/// first m columns the monomials. Empty where there is none.
+std::vector<constant_polynomial> fit(const std::vector<monomial>& monomials, const field_matrix& samples) {
+    const exact_selection solution = select_exactly(samples, positions(samples.columns()));
+    if (solution.kept != positions(monomials.size())) {
+        return {};
+    }
+    std::vector<constant_polynomial> result(samples.columns() - monomials.size());
+    for (std::size_t d = 0; d < solution.dropped.size(); ++d) {
+        for (std::size_t k = 0; k < monomials.size(); ++k) {
+            bool found = true;
+            const rational coefficient = reconstruct(solution.beta[k][d], found);
+            if (!found) {
+                return {};
+            }
+            result[solution.dropped[d] - monomials.size()].add(coefficient, monomials[k]);
         }
     }
     return result;
 }
 
-/// Polynomials through the coefficients of several eliminations, columns counted in `local`; empty where one has none.
-std::map<std::size_t, std::map<std::size_t, constant_polynomial>> fit_coefficients(
-    const std::vector<exact_selection>& eliminations, const std::vector<std::vector<prime_field>>& constants,
-    const std::vector<monomial>& monomials, const std::vector<std::size_t>& local, std::size_t first_target) {
-    std::map<std::size_t, std::map<std::size_t, constant_polynomial>> table;
-    const exact_selection& first = eliminations.front();
-    for (std::size_t d = 0; d < first.dropped.size(); ++d) {
-        for (std::size_t k = 0; first.dropped[d] >= first_target && k < first.kept.size(); ++k) {
-            std::vector<prime_field> values;
-            for (const exact_selection& elimination : eliminations) {
-                values.push_back(elimination.beta[k][d]);
-            }
-            const auto residues = fit(monomials, constants, values);
-            const auto found = residues ? polynomial(monomials, *residues) : std::nullopt;
-            if (!found) {
-                return {};
-            }
-            table[local[first.dropped[d]]][local[first.kept[k]]] = *found;
-        }
+bool enters(const GiNaC::symbol& symbol, const kinematic_joint& joint) {
+    const std::array<ex, 8> entries = {joint.b,         joint.d,         joint.r,         joint.position()[2],
+                                       joint.gamma.cos, joint.alpha.cos, joint.theta.cos, joint.theta.sin};
+    return std::any_of(entries.begin(), entries.end(), [&symbol](const ex& e) { return e.has(symbol); }) ||
+           std::any_of(joint.rates.begin(), joint.rates.end(),
+                       [&symbol](const joint_rate& rate) { return rate.factor.has(symbol); });
+}
+
+std::vector<prime_field> values_of(const std::vector<monomial>& monomials, const std::vector<prime_field>& constants) {
+    std::vector<prime_field> result;
+    for (const monomial& m : monomials) {
+        result.push_back(evaluate(m, constants));
     }
-    return table;
+    return result;
 }
 
 }  // namespace
 
 regrouping::regrouping(const standard_regressor& W, const kinematic_tree& tree, const standard_parameters& parameters,
                        const std::vector<std::size_t>& preference)
-    : W_(W), angles_(W.graph), tree_(tree), parameters_(parameters), preference_(preference) {
-    // Rows for the largest rank there can be, and some to spare: rows of outer joints see few columns.
-    points_ = W.columns / W.dof + 3;
-    own_constants_ = draw_constants(0);
-    own_ = select_exactly(rows_at(own_constants_), preference_);
+    : W_(W),
+      tree_(tree),
+      parameters_(parameters),
+      evaluator_(W.graph, [](const rational& value) { return to_field(value); }),
+      // Rows for the largest rank there can be, and some to spare: rows of outer joints see few columns.
+      points_(static_cast<int>(W.columns / W.dof) + 3),
+      own_constants_(constant_values(tree)),
+      is_kept_(W.columns, false) {
+    const std::vector<prime_field> constants = to_field(own_constants_);
+    field_matrix rows(W.columns);
+    for (int s = 0; s < points_; ++s) {
+        sample_point<prime_field> point(W, static_cast<std::uint64_t>(s) + 1);
+        for (const std::vector<prime_field>& row : point.rows(evaluator_, constants)) {
+            rows.append(row);
+        }
+    }
+    own_ = select_exactly(rows, preference);
+    const std::vector<std::size_t> rigid = without_effects(preference);
+    kept_of_rigid_ = rigid.size() == preference.size() ? own_.kept : select_exactly(rows, rigid).kept;
+    for (const std::size_t p : own_.kept) {
+        is_kept_[p] = true;
+    }
 }
 
-std::vector<rational> regrouping::draw_constants(std::uint64_t seed) const {
+std::vector<std::size_t> regrouping::without_effects(const std::vector<std::size_t>& columns) const {
+    std::vector<std::size_t> result;
+    std::copy_if(columns.begin(), columns.end(), std::back_inserter(result),
+                 [this](std::size_t p) { return parameters_.all[p].kind != parameter_kind::effect; });
+    return result;
+}
+
+std::vector<prime_field> regrouping::draw_constants(std::uint64_t seed) const {
+    const prime_field one(std::uint64_t{1});
     std::mt19937_64 random(seed);
-    std::vector<rational> values;
+    std::vector<prime_field> values;
     for (const kinematic_constant& constant : tree_.constants) {
-        const rational drawn = static_cast<unsigned long>(random() >> 34) + 1;
-        if (seed == 0) {
-            values.push_back(cln::the<cln::cl_RA>(constant.value.to_cl_N()));
-        } else if (constant.angle < 0) {
+        const prime_field drawn((random() >> 34) + 1);
+        if (constant.angle < 0) {
             values.push_back(drawn);
         } else if (!constant.is_sine) {
-            values.push_back((1 - drawn * drawn) / (1 + drawn * drawn));
-            values.push_back(2 * drawn / (1 + drawn * drawn));  // its sine is the next constant
+            const prime_field norm = one + drawn * drawn;
+            values.push_back((one - drawn * drawn) / norm);
+            values.push_back((drawn + drawn) / norm);  // its sine is the next constant
         }
     }
     return values;
 }
 
-regrouping::field_rows regrouping::rows_at(const std::vector<rational>& constants) const {
-    const constant_values values = by_symbol(W_.graph, constants);
-    field_rows rows;
-    for (int s = 0; s < points_; ++s) {
-        const std::size_t first = rows.size();
-        rows.resize(first + static_cast<std::size_t>(W_.dof),
-                    std::vector<prime_field>(static_cast<std::size_t>(W_.columns)));
-        sample_point<prime_field> point(angles_, static_cast<std::uint64_t>(s) + 1, point_height);
-        const std::vector<prime_field> entries = point.evaluate_at(W_.graph, values);
-        for (std::size_t k = 0; k < entries.size(); ++k) {
-            rows[first + static_cast<std::size_t>(W_.row_of_output[k])]
-                [static_cast<std::size_t>(W_.column_of_output[k])] = entries[k];
+regrouping::constants_draw regrouping::draw(std::size_t s, const std::vector<std::vector<std::size_t>>& groups,
+                                            std::size_t variant) {
+    const std::vector<prime_field> own = draw_constants(s + 1);
+    constants_draw result{draw_constants(s + 1 + 1000 * variant), field_matrix(W_.columns)};
+    for (const std::vector<std::size_t>& group : groups) {
+        for (const std::size_t i : group) {
+            result.constants[i] = own[i];
         }
     }
-    return rows;
+    for (sample_point<prime_field>& state : states_) {
+        result.rows.append(state.combined_row(evaluator_, result.constants));
+    }
+    return result;
 }
 
-std::vector<std::vector<std::size_t>> regrouping::constants_of(const kinematic_joint& joint) const {
+std::vector<std::vector<std::size_t>> regrouping::constants_of(const std::vector<int>& joints) const {
     std::vector<std::vector<std::size_t>> groups;
     for (std::size_t i = 0; i < tree_.constants.size(); ++i) {
         const kinematic_constant& constant = tree_.constants[i];
         const GiNaC::symbol& symbol = tree_.constants[constant.is_sine ? i - 1 : i].symbol;
-        const std::array<ex, 8> entries = {joint.b,         joint.d,         joint.r,         joint.position()[2],
-                                           joint.gamma.cos, joint.alpha.cos, joint.theta.cos, joint.theta.sin};
-        const bool enters =
-            std::any_of(entries.begin(), entries.end(), [&symbol](const ex& e) { return e.has(symbol); }) ||
-            std::any_of(joint.rates.begin(), joint.rates.end(),
-                        [&symbol](const joint_rate& rate) { return rate.factor.has(symbol); });
-        if (enters && constant.is_sine) {
+        const bool enters_any = std::any_of(joints.begin(), joints.end(), [this, &symbol](int joint) {
+            return enters(symbol, tree_.joints[static_cast<std::size_t>(joint)]);
+        });
+        if (enters_any && constant.is_sine) {
             groups.back().push_back(i);
-        } else if (enters) {
+        } else if (enters_any) {
             groups.push_back({i});
         }
     }
@@ -208,140 +181,154 @@ std::vector<std::size_t> regrouping::columns_of(const std::vector<std::size_t>& 
     return result;
 }
 
-void regrouping::sample(sampled_regressor& samples, std::size_t s,
-                        const std::vector<std::vector<std::size_t>>& own_groups, std::size_t variant) const {
-    const std::vector<rational> own = draw_constants(s + 1);
-    std::vector<rational> drawn = draw_constants(s + 1 + 1000 * variant);
-    for (const std::vector<std::size_t>& group : own_groups) {
-        for (const std::size_t i : group) {
-            drawn[i] = own[i];
-        }
+regrouping::link_relation regrouping::relation_of(int link) const {
+    link_relation relation;
+    relation.columns = columns_of(own_.kept, link);
+    std::vector<int> joints;
+    std::vector<std::size_t> inner;
+    for (int at = link; at >= 0 && inner.empty();) {
+        joints.push_back(at);
+        at = tree_.joints[static_cast<std::size_t>(at)].antecedent;
+        inner = without_effects(columns_of(positions(W_.columns), at));
     }
-    samples.constants.push_back(to_field(drawn));
-    samples.rows.push_back(rows_at(drawn));
+    relation.columns.insert(relation.columns.end(), inner.begin(), inner.end());
+    relation.groups = constants_of(joints);
+    relation.first_target = relation.columns.size();
+    const std::vector<std::size_t> targets = columns_of(own_.dropped, link);
+    relation.columns.insert(relation.columns.end(), targets.begin(), targets.end());
+    return relation;
 }
 
-regrouping::formula_table regrouping::relate_to_antecedent(int link, std::size_t variants,
-                                                           sampled_regressor& samples) const {
-    const kinematic_joint& joint = tree_.joints[static_cast<std::size_t>(link)];
-    const std::vector<std::size_t> targets = columns_of(own_.dropped, link);
-    const std::vector<std::vector<std::size_t>> groups = constants_of(joint);
-    const std::vector<monomial> monomials = candidate_monomials(groups);
-    if (targets.empty()) {
-        return {};
+regrouping::formula_table regrouping::solve(const link_relation& relation, std::size_t variants,
+                                            std::vector<constants_draw>& draws) {
+    const std::vector<monomial> monomials = candidate_monomials(relation.groups);
+    const std::size_t count = monomials.size() + spare_draws;
+    while (draws.size() < count * variants) {
+        draws.push_back(draw(draws.size() / variants, relation.groups, draws.size() % variants));
     }
-    const std::size_t draws = monomials.size() + 3;
-    while (samples.rows.size() < draws * variants) {
-        sample(samples, samples.rows.size() / variants, groups, samples.rows.size() % variants);
-    }
-    std::vector<std::size_t> local = columns_of(own_.kept, link);
-    for (int kind = 0; joint.antecedent >= 0 && kind <= static_cast<int>(parameter_kind::M); ++kind) {
-        const std::size_t p = parameters_.index(joint.antecedent, static_cast<parameter_kind>(kind));
-        if (p < parameters_.all.size()) {
-            local.push_back(p);
-        }
-    }
-    const std::size_t first_target = local.size();
-    local.insert(local.end(), targets.begin(), targets.end());
-
-    std::vector<exact_selection> eliminations;
-    std::vector<std::vector<prime_field>> constants;
-    for (std::size_t s = 0; s < draws; ++s) {
-        field_rows rows;
+    exact_selection first;
+    std::size_t targets = 0;
+    std::optional<field_matrix> samples;
+    for (std::size_t s = 0; s < count; ++s) {
+        field_matrix rows(relation.columns.size());
         for (std::size_t v = 0; v < variants; ++v) {
-            const field_rows part = restrict_to(samples.rows[s * variants + v], local);
-            rows.insert(rows.end(), part.begin(), part.end());
+            append_columns(draws[s * variants + v].rows, relation.columns, relation.columns.size() + spare_rows, rows);
         }
-        const exact_selection elimination = select_exactly(std::move(rows), positions(local.size()));
-        const bool depends = !elimination.kept.empty() && elimination.kept.back() < first_target;
-        if (!depends ||
-            (s > 0 && (elimination.kept != eliminations[0].kept || elimination.dropped != eliminations[0].dropped))) {
+        const exact_selection elimination = select_exactly(std::move(rows), positions(relation.columns.size()));
+        if (s == 0) {
+            first = elimination;
+            targets = static_cast<std::size_t>(
+                std::count_if(first.dropped.begin(), first.dropped.end(),
+                              [&relation](std::size_t c) { return c >= relation.first_target; }));
+            samples.emplace(monomials.size() + first.kept.size() * targets);
+        }
+        const bool depends = !first.kept.empty() && first.kept.back() < relation.first_target;
+        if (!depends || elimination.kept != first.kept || elimination.dropped != first.dropped) {
             return {};
         }
-        eliminations.push_back(elimination);
-        constants.push_back(samples.constants[s * variants]);
+        std::vector<prime_field> row = values_of(monomials, draws[s * variants].constants);
+        for (const std::vector<prime_field>& coefficients : elimination.beta) {
+            row.insert(row.end(), coefficients.end() - static_cast<std::ptrdiff_t>(targets), coefficients.end());
+        }
+        samples->append(row);
     }
-    return fit_coefficients(eliminations, constants, monomials, local, first_target);
-}
-
-regrouping::formula_table regrouping::formulas() const {
-    sampled_regressor shared;
+    const std::vector<constant_polynomial> found = fit(monomials, *samples);
     formula_table table;
-    const auto in = [](const std::vector<std::size_t>& list, std::size_t p) {
-        return std::find(list.begin(), list.end(), p) != list.end();
-    };
-    for (std::size_t link = 0; link < tree_.joints.size(); ++link) {
-        formula_table relations = relate_to_antecedent(static_cast<int>(link), 1, shared);
-        if (relations.empty()) {
-            sampled_regressor own;
-            relations = relate_to_antecedent(static_cast<int>(link), 3, own);
-        }
-        for (const auto& [dropped, combination] : relations) {
-            auto& row = table[dropped];
-            for (const auto& [p, coefficient] : combination) {
-                if (in(own_.kept, p)) {
-                    row[p] += coefficient;
-                }
-                // Of the antecedent, whose formulas are complete.
-                if (const auto inner = table.find(p); inner != table.end()) {
-                    for (const auto& [kept, factor] : inner->second) {
-                        row[kept] += coefficient * factor;
-                    }
-                }
-            }
-        }
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const std::size_t target = first.dropped[first.dropped.size() - targets + i % targets];
+        table[relation.columns[target]][relation.columns[first.kept[i / targets]]] = found[i];
     }
     return table;
 }
 
-regrouped_column regrouping::column(const formula_table& table, std::size_t k, std::size_t d, double by_qr) const {
+void regrouping::insert(const formula_table& relations, formula_table& table) const {
+    for (const auto& [dropped, combination] : relations) {
+        auto& row = table[dropped];
+        for (const auto& [p, coefficient] : combination) {
+            if (is_kept_[p]) {
+                row[p] += coefficient;
+            }
+            // Of the antecedent, whose formulas are complete.
+            if (const auto inner = table.find(p); inner != table.end()) {
+                for (const auto& [kept, factor] : inner->second) {
+                    row[kept] += coefficient * factor;
+                }
+            }
+        }
+    }
+}
+
+regrouping::formula_table regrouping::formulas() {
+    std::vector<link_relation> relations;
+    for (std::size_t link = 0; link < tree_.joints.size(); ++link) {
+        link_relation relation = relation_of(static_cast<int>(link));
+        while (states_.size() < relation.columns.size() + spare_rows) {
+            states_.emplace_back(W_, states_.size() + 1);
+        }
+        if (relation.columns.size() > relation.first_target) {
+            relations.push_back(std::move(relation));
+        }
+    }
+    std::vector<constants_draw> shared;
+    formula_table table;
+    for (const link_relation& relation : relations) {
+        formula_table found = solve(relation, 1, shared);
+        if (found.empty()) {
+            std::vector<constants_draw> own;
+            found = solve(relation, 3, own);
+        }
+        insert(found, table);
+    }
+    return table;
+}
+
+std::optional<regrouped_column> regrouping::formula(const formula_table& table, std::size_t k, std::size_t d) const {
+    const auto row = table.find(own_.dropped[d]);
+    if (row == table.end()) {
+        return std::nullopt;
+    }
     regrouped_column result;
     result.kept = own_.kept[k];
     result.dropped = own_.dropped[d];
-    const auto row = table.find(result.dropped);
-    if (row != table.end()) {
-        const auto entry = row->second.find(result.kept);
-        const constant_polynomial found = entry == row->second.end() ? constant_polynomial() : entry->second;
-        result.exact = found.value(own_constants_);
-        // An irrational number has a fraction with the same residue too: the QR tells.
-        if (prime_field(result.exact) == own_.beta[k][d] && agree(result.exact, by_qr)) {
-            result.coefficient = found;
-            return result;
-        }
+    if (const auto entry = row->second.find(result.kept); entry != row->second.end()) {
+        result.coefficient = entry->second;
     }
-    // A short fraction if that is what the QR sees too, otherwise the QR's own number.
+    result.exact = result.coefficient.value(own_constants_);
+    return to_field(result.exact) == own_.beta[k][d] ? std::optional(result) : std::nullopt;
+}
+
+regrouped_column regrouping::number(std::size_t k, std::size_t d, double by_qr) const {
     bool found = true;
     const rational fraction = reconstruct(own_.beta[k][d], found);
-    result.is_exact = found && agree(fraction, by_qr);
+    regrouped_column result;
+    result.kept = own_.kept[k];
+    result.dropped = own_.dropped[d];
+    result.is_exact = found && std::abs(to_double(fraction) - by_qr) < 1e-9 * std::max(1.0, std::abs(by_qr));
     result.exact = result.is_exact ? fraction : cln::rational(cln::cl_DF(by_qr));
     result.coefficient = constant_polynomial(result.exact);
     return result;
 }
 
-std::vector<regrouped_column> regrouping::columns(const Eigen::MatrixXd& beta) const {
+std::vector<regrouped_column> regrouping::columns(const Eigen::MatrixXd& sampled) {
     const formula_table table = formulas();
+    std::optional<Eigen::MatrixXd> by_qr;
     std::vector<regrouped_column> result;
     for (std::size_t k = 0; k < own_.kept.size(); ++k) {
         for (std::size_t d = 0; d < own_.dropped.size(); ++d) {
-            if (!own_.beta[k][d].is_zero()) {
-                const double by_qr = beta(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(d));
-                result.push_back(column(table, k, d, by_qr));
+            if (own_.beta[k][d].is_zero()) {
+                continue;
             }
+            if (const auto found = formula(table, k, d)) {
+                result.push_back(*found);
+                continue;
+            }
+            if (!by_qr) {
+                by_qr = express_by_qr(sampled, own_.kept, own_.dropped);
+            }
+            result.push_back(number(k, d, (*by_qr)(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(d))));
         }
     }
     return result;
-}
-
-std::vector<std::vector<rational>> regrouping::exact_rows(int point_number) const {
-    sample_point<rational> point(angles_, static_cast<std::uint64_t>(point_number) + 1, point_height);
-    const std::vector<rational> entries = point.evaluate_at(W_.graph, by_symbol(W_.graph, own_constants_));
-    std::vector<std::vector<rational>> rows(static_cast<std::size_t>(W_.dof),
-                                            std::vector<rational>(static_cast<std::size_t>(W_.columns), rational(0)));
-    for (std::size_t k = 0; k < entries.size(); ++k) {
-        rows[static_cast<std::size_t>(W_.row_of_output[k])][static_cast<std::size_t>(W_.column_of_output[k])] =
-            entries[k];
-    }
-    return rows;
 }
 
 int regrouping::prove(const std::vector<regrouped_column>& columns) const {
@@ -351,19 +338,20 @@ int regrouping::prove(const std::vector<regrouped_column>& columns) const {
             exact.erase(std::remove(exact.begin(), exact.end(), column.dropped), exact.end());
         }
     }
+    graph_evaluator<rational> evaluator(W_.graph, [](const rational& value) { return value; });
     for (int s = 0; s < points_; ++s) {
-        for (std::vector<rational>& row : exact_rows(s)) {
-            for (const regrouped_column& column : columns) {
-                row[column.dropped] = row[column.dropped] - column.exact * row[column.kept];
-            }
-            const bool holds =
-                std::all_of(exact.begin(), exact.end(), [&row](std::size_t d) { return cln::zerop(row[d]); });
-            if (!holds) {
-                throw rank_disagreement(
-                    fmt::format("base parameters: rank {} modulo a prime, but the regrouping does not hold "
-                                "exactly at rational point {}",
-                                own_.kept.size(), s + 1));
-            }
+        sample_point<rational> point(W_, static_cast<std::uint64_t>(s) + 1);
+        std::vector<rational> row = point.combined_row(evaluator, own_constants_);
+        for (const regrouped_column& column : columns) {
+            row[column.dropped] = row[column.dropped] - column.exact * row[column.kept];
+        }
+        const bool holds =
+            std::all_of(exact.begin(), exact.end(), [&row](std::size_t d) { return cln::zerop(row[d]); });
+        if (!holds) {
+            throw rank_disagreement(
+                fmt::format("base parameters: rank {} modulo a prime, but the regrouping does not hold "
+                            "exactly at rational point {}",
+                            own_.kept.size(), s + 1));
         }
     }
     return static_cast<int>(own_.dropped.size() - exact.size());

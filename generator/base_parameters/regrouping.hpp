@@ -1,11 +1,12 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <vector>
 
-#include "base_parameters/angle_table.hpp"
 #include "base_parameters/column_selection.hpp"
 #include "base_parameters/constant_polynomial.hpp"
+#include "base_parameters/sample_point.hpp"
 #include "base_parameters/standard_regressor.hpp"
 
 namespace idim::generator {
@@ -28,59 +29,72 @@ class regrouping {
 
     /// Decision at the robot's own constants.
     const exact_selection& selection() const { return own_; }
+    /// What is kept where the robot has no effects, in the order of preference.
+    const std::vector<std::size_t>& kept_of_rigid() const { return kept_of_rigid_; }
     /// Number of rational points.
     int points() const { return points_; }
 
     /// All coefficients as polynomials in the constants, link by link as in the closed-form rules (Gautier and Khalil
-    /// 1990): a dropped column of a link is a combination of the link's kept ones and of its antecedent's, with
-    /// coefficients in the constants of this one joint, which eliminations at random constants determine. Inserted into
-    /// each other from the base outward they give the coefficients in the kept columns. Where a column is no such
-    /// combination its coefficients are numbers. `beta`: the same coefficients by QR, kept x dropped in the order of
-    /// selection().
-    std::vector<regrouped_column> columns(const Eigen::MatrixXd& beta) const;
+    /// 1990): a dropped column of a link is a combination of the link's kept ones and of its antecedent's (across
+    /// massless links: of the next one inward that has parameters), with coefficients in the constants of the joints
+    /// between, which eliminations at random constants determine. Inserted into each other from the base outward they
+    /// give the coefficients in the kept columns. Where a column is no such combination its coefficients are numbers.
+    /// `sampled`: the regressor at random states, for their size by QR.
+    std::vector<regrouped_column> columns(const Eigen::MatrixXd& sampled);
 
-    /// Inserts the coefficients at every rational point, in CLN rationals. Throws rank_disagreement where a dropped
-    /// column is not this combination of the kept ones. Returns the number of dropped columns left out because a
-    /// coefficient is no exact number: for these the elimination modulo a prime is the evidence.
+    /// Inserts the coefficients into the combined row of every rational point, in CLN rationals. Throws
+    /// rank_disagreement where a dropped column is not this combination of the kept ones. Returns the number of dropped
+    /// columns left out because a coefficient is no exact number: for these the elimination modulo a prime is the
+    /// evidence.
     int prove(const std::vector<regrouped_column>& columns) const;
 
   private:
-    using field_rows = std::vector<std::vector<prime_field>>;
     /// dropped -> kept -> coefficient
     using formula_table = std::map<std::size_t, std::map<std::size_t, constant_polynomial>>;
-    /// The standard regressor modulo a prime, at several random constants.
-    struct sampled_regressor {
-        std::vector<std::vector<prime_field>> constants;
-        std::vector<field_rows> rows;
+    /// The dropped columns of one link and those that may express them.
+    struct link_relation {
+        std::vector<std::size_t> columns;  ///< the dropped ones from `first_target` on
+        std::size_t first_target = 0;
+        std::vector<std::vector<std::size_t>> groups;  ///< of constants that the coefficients may depend on
+    };
+    /// The standard regressor modulo a prime, at one draw of constants.
+    struct constants_draw {
+        std::vector<prime_field> constants;
+        field_matrix rows;
     };
 
-    /// Random constants, cosine and sine of one angle on the circle; `seed` 0 gives the robot's own.
-    std::vector<rational> draw_constants(std::uint64_t seed) const;
-    field_rows rows_at(const std::vector<rational>& constants) const;
-    std::vector<std::vector<rational>> exact_rows(int point_number) const;
-
-    /// Groups of the constants that enter one joint's transform: a length, or cosine and sine of an angle.
-    std::vector<std::vector<std::size_t>> constants_of(const kinematic_joint& joint) const;
+    link_relation relation_of(int link) const;
+    /// Groups of the constants that enter the transforms of some joints: a length, or cosine and sine of an angle.
+    std::vector<std::vector<std::size_t>> constants_of(const std::vector<int>& joints) const;
     std::vector<std::size_t> columns_of(const std::vector<std::size_t>& among, int link) const;
-    /// Constants and rows number `s`: the joint's own constants are those of draw s, the others of draw s + variant *
-    /// 1000.
-    void sample(sampled_regressor& samples, std::size_t s, const std::vector<std::vector<std::size_t>>& own_groups,
-                std::size_t variant) const;
-    /// Dropped columns of one link in its kept ones and its antecedent's columns; empty where that is impossible. Each
-    /// elimination takes the rows of so many draws of the other joints' constants: columns of the antecedent may depend
-    /// on each other for one geometry of the inner links, but not for all.
-    formula_table relate_to_antecedent(int link, std::size_t variants, sampled_regressor& samples) const;
-    formula_table formulas() const;
-    regrouped_column column(const formula_table& table, std::size_t k, std::size_t d, double by_qr) const;
+    std::vector<std::size_t> without_effects(const std::vector<std::size_t>& columns) const;
+
+    /// Random constants, cosine and sine of one angle on the circle.
+    std::vector<prime_field> draw_constants(std::uint64_t seed) const;
+    /// Draw number `s`: the constants of `groups` are those of seed s, the others of seed s + variant * 1000.
+    constants_draw draw(std::size_t s, const std::vector<std::vector<std::size_t>>& groups, std::size_t variant);
+
+    /// The relation as formulas; empty where there are none. Each elimination takes the rows of so many draws of the
+    /// other joints' constants: columns of the antecedent may depend on each other for one geometry of the inner links,
+    /// but not for all. `draws` grows as needed.
+    formula_table solve(const link_relation& relation, std::size_t variants, std::vector<constants_draw>& draws);
+    formula_table formulas();
+    void insert(const formula_table& relations, formula_table& table) const;
+    /// By formula, if there is one that has the value of the elimination.
+    std::optional<regrouped_column> formula(const formula_table& table, std::size_t k, std::size_t d) const;
+    /// A short fraction if that is what the QR sees too, otherwise the QR's own number.
+    regrouped_column number(std::size_t k, std::size_t d, double by_qr) const;
 
     const standard_regressor& W_;
-    angle_table angles_;
     const kinematic_tree& tree_;
     const standard_parameters& parameters_;
-    const std::vector<std::size_t>& preference_;
+    graph_evaluator<prime_field> evaluator_;
+    std::vector<sample_point<prime_field>> states_;  ///< for eliminations within one link
     int points_ = 0;
     std::vector<rational> own_constants_;
     exact_selection own_;
+    std::vector<bool> is_kept_;
+    std::vector<std::size_t> kept_of_rigid_;
 };
 
 }  // namespace idim::generator

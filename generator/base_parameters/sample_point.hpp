@@ -1,109 +1,149 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <map>
 #include <random>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
-#include "base_parameters/angle_table.hpp"
+#include "base_parameters/prime_field.hpp"
+#include "base_parameters/standard_regressor.hpp"
 #include "graph/evaluate.hpp"
-#include "graph/expression_graph.hpp"
 
 namespace idim::generator {
 
-/// Values for the constants of a graph, one per graph symbol (others ignored).
-using constant_values = std::vector<rational>;
-
-/// A random state of the robot in exact numbers, from which a graph is evaluated over a field T (rationals, or integers
-/// modulo a prime). Cosine and sine of a base angle lie on the unit circle exactly: ((1-t^2)/(1+t^2), 2t/(1+t^2)) with
-/// t rational; other angles follow by the addition theorems. Signs are +1 or -1, abs(x) = sign(x) x; other functions
-/// are not rational and stand for values of their own. The same seed gives the same state for every T.
+/// A random state of the robot in exact numbers, where the standard regressor is evaluated over a field T (rationals,
+/// or integers modulo a prime). Cosine and sine of an angle lie on the unit circle exactly: ((1-t^2)/(1+t^2),
+/// 2t/(1+t^2)) with t rational. Signs are +1 or -1, abs(x) = sign(x) x; other functions are not rational and stand for
+/// values of their own. The same seed gives the same state for every T.
 template <class T>
 class sample_point {
   public:
-    sample_point(const angle_table& angles, std::uint64_t seed, std::uint64_t height)
-        : angles_(angles), random_(seed), height_(height) {}
-
-    /// Values of all outputs of the graph.
-    std::vector<T> evaluate_at(const expression_graph& graph, const constant_values& constants) {
-        std::vector<T> values;
-        for (std::size_t i = 0; i < graph.symbols().size(); ++i) {
-            const rational drawn = draw();
-            values.push_back(T(graph.symbols()[i].role == symbol_role::constant ? constants[i] : drawn));
+    sample_point(const standard_regressor& W, std::uint64_t seed) : W_(W), random_(seed) {
+        for (std::size_t i = 0; i < W.graph.symbols().size(); ++i) {
+            symbols_.push_back(draw());
         }
-        return evaluate(graph, values, *this);
     }
 
-    static T number(const rational& value) { return T(value); }
+    /// The regressor's row at random virtual velocities. `evaluator`: of its graph; `constants`: of the robot.
+    std::vector<T> combined_row(graph_evaluator<T>& evaluator, const std::vector<T>& constants) {
+        return evaluator.evaluate(with(constants), *this);
+    }
+
+    /// All rows of W_st.
+    std::vector<std::vector<T>> rows(graph_evaluator<T>& evaluator, const std::vector<T>& constants) {
+        std::vector<T> symbols = with(constants);
+        const auto first = symbols.begin() + static_cast<std::ptrdiff_t>(W_.first_virtual());
+        std::fill(first, symbols.end(), T());
+        std::vector<std::vector<T>> rows;
+        for (auto v = first; v != symbols.end(); ++v) {
+            *v = integer(1);
+            rows.push_back(evaluator.evaluate(symbols, *this));
+            *v = T();
+        }
+        return rows;
+    }
 
     T function(function_kind kind, signed_node argument, const T& x, const T&) {
         const int node = argument.id;
         switch (kind) {
             case function_kind::cos:
-                return angle(node).first;
+                return circle(node).first;
             case function_kind::sin:
-                return angle(node).second;
+                return circle(node).second;
             case function_kind::sign:
-                return T(rational(sign(node)));
+                return sign(node);
             case function_kind::abs:
-                return T(rational(sign(node))) * x;
+                return sign(node) * x;
             default:
-                return T(own_value(kind, node));
+                return own_value(kind, node);
         }
     }
 
   private:
-    rational draw() {
-        const auto numerator = static_cast<long>(random_() % height_) + 1;
+    static T integer(long value) {
+        if constexpr (std::is_same_v<T, prime_field>) {
+            const prime_field magnitude(static_cast<std::uint64_t>(std::abs(value)));
+            return value < 0 ? -magnitude : magnitude;
+        } else {
+            return T(value);
+        }
+    }
+
+    /// Small, so that exact evaluations stay short.
+    T draw() {
+        const auto numerator = static_cast<long>(random_() % 7) + 1;
         const auto denominator = static_cast<long>(random_() % 3) + 1;
-        return rational(numerator) / rational(random_() % 2 == 0 ? denominator : -denominator);
+        return integer(random_() % 2 == 0 ? numerator : -numerator) / integer(denominator);
     }
 
-    using turn = std::pair<T, T>;  ///< cosine and sine
-
-    static turn add(const turn& a, const turn& b) {
-        return {a.first * b.first - a.second * b.second, a.first * b.second + a.second * b.first};
-    }
-
-    turn angle(int argument) {
-        const angle_form& form = angles_[argument];
-        turn sum = {T(form.cos), T(form.sin)};
-        for (const angle_form::term& term : form.terms) {
-            const auto [cos, sin] = base_circle(term.base);
-            const turn step = {T(cos), T(term.power < 0 ? -sin : sin)};
-            for (int k = 0; k < std::abs(term.power); ++k) {
-                sum = add(sum, step);
+    std::vector<T> with(const std::vector<T>& constants) const {
+        std::vector<T> symbols = symbols_;
+        for (std::size_t i = 0; i < symbols.size(); ++i) {
+            const graph_symbol& symbol = W_.graph.symbols()[i];
+            if (symbol.role == symbol_role::constant) {
+                symbols[i] = constants[static_cast<std::size_t>(symbol.index)];
             }
         }
-        return sum;
+        return symbols;
     }
 
-    std::pair<rational, rational> base_circle(int base) {
-        const auto [at, fresh] = circles_.try_emplace(base);
-        if (fresh) {
-            const rational t = draw();
-            const rational norm = 1 + t * t;
-            at->second = {(1 - t * t) / norm, 2 * t / norm};
+    /// Cosine and sine.
+    using circle_point = std::pair<T, T>;
+
+    static circle_point sum(const circle_point& a, const circle_point& b) {
+        return {a.first * b.first - a.second * b.second, a.second * b.first + a.first * b.second};
+    }
+
+    const circle_point& circle(int node) {
+        const auto known = circles_.find(node);
+        if (known != circles_.end()) {
+            return known->second;
         }
-        return at->second;
+        const composed_angle* angle = W_.angles.find(node);
+        return circles_.emplace(node, angle == nullptr ? free_circle(node) : composed(*angle)).first->second;
     }
 
-    int sign(int node) { return signs_.try_emplace(node, random_() % 2 == 0 ? 1 : -1).first->second; }
-
-    rational own_value(function_kind kind, int node) {
-        const auto [at, fresh] = others_.try_emplace({kind, node});
-        if (fresh) {
-            at->second = draw();
+    circle_point composed(const composed_angle& angle) {
+        circle_point result{integer(1), integer(0)};
+        if (angle.constant) {
+            result = {T(angle.constant->first), T(angle.constant->second)};
         }
-        return at->second;
+        for (const auto& [node, multiple] : angle.terms) {
+            const auto& [cosine, sine] = free_circle(node);
+            for (int i = 0; i < std::abs(multiple); ++i) {
+                result = sum(result, {cosine, multiple < 0 ? T(-sine) : sine});
+            }
+        }
+        return result;
     }
 
-    const angle_table& angles_;
+    const circle_point& free_circle(int node) {
+        const auto known = free_circles_.find(node);
+        if (known != free_circles_.end()) {
+            return known->second;
+        }
+        const T t = draw();
+        const T norm = integer(1) + t * t;
+        return free_circles_.emplace(node, std::pair((integer(1) - t * t) / norm, integer(2) * t / norm)).first->second;
+    }
+
+    T sign(int node) { return signs_.try_emplace(node, integer(random_() % 2 == 0 ? 1 : -1)).first->second; }
+
+    T own_value(function_kind kind, int node) {
+        const auto known = others_.find({kind, node});
+        return known != others_.end() ? known->second : others_.emplace(std::pair(kind, node), draw()).first->second;
+    }
+
+    const standard_regressor& W_;
     std::mt19937_64 random_;
-    std::uint64_t height_;
-    std::map<int, std::pair<rational, rational>> circles_;
-    std::map<int, int> signs_;
-    std::map<std::pair<function_kind, int>, rational> others_;
+    std::vector<T> symbols_;
+    std::map<int, circle_point> circles_, free_circles_;
+    std::map<int, T> signs_;
+    std::map<std::pair<function_kind, int>, T> others_;
 };
 
 }  // namespace idim::generator

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <stdexcept>
+#include <unordered_map>
 
 #include "dynamics/symbolic_model.hpp"
 
@@ -14,16 +15,14 @@ namespace {
 
 using GiNaC::ex;
 
-/// A sub-expression with the text it is sorted by. The text is built from declared symbol indices and sorted operands,
-/// so it is the same whatever order GiNaC holds the operands in.
-struct keyed {
-    std::string key;
+/// An expression with the text it is sorted by. The text is built from declared symbol indices and sorted operands, so
+/// it is the same whatever order GiNaC holds the operands in.
+struct ordered {
     ex value;
+    std::string key;
+    std::vector<ordered> operands;  ///< of a sum or product, sorted
+    signed_node node;               ///< of a symbol
 };
-
-bool by_key(const keyed& a, const keyed& b) {
-    return a.key < b.key;
-}
 
 rational to_rational(const ex& number) {
     const auto value = GiNaC::ex_to<GiNaC::numeric>(number);
@@ -64,85 +63,96 @@ class graph_builder {
 
   private:
     void add_symbol(const GiNaC::symbol& symbol, signed_node value) {
-        const int index = static_cast<int>(symbols_.size());
-        symbols_[symbol] = {index, value};
+        const std::size_t index = symbols_.size();
+        symbols_[symbol] = {fmt::format("{:06}", index), value};
     }
 
-    std::string key(const ex& e) const {
-        if (GiNaC::is_a<GiNaC::symbol>(e)) {
-            return fmt::format("{:06}", symbols_.at(e).first);
+    ordered in_order(const ex& e) const {
+        ordered result{e, {}, {}, {}};
+        if (GiNaC::is_exactly_a<GiNaC::symbol>(e)) {
+            const known_symbol& symbol = symbols_.at(e);
+            result.key = symbol.key;
+            result.node = symbol.value;
+        } else if (GiNaC::is_exactly_a<GiNaC::numeric>(e)) {
+            result.key = "~" + to_fraction(to_rational(e));
+        } else if (GiNaC::is_exactly_a<GiNaC::constant>(e)) {
+            result.key = "~pi";
+        } else if (GiNaC::is_exactly_a<GiNaC::power>(e)) {
+            result.key = in_order(e.op(0)).key + "^" + in_order(e.op(1)).key;
+        } else if (GiNaC::is_exactly_a<GiNaC::mul>(e)) {
+            sort_operands(result, "*");
+        } else if (GiNaC::is_exactly_a<GiNaC::add>(e)) {
+            result.key = "a";
+            sort_operands(result, ",");
+            result.key += ")";
+        } else if (GiNaC::is_exactly_a<GiNaC::function>(e)) {
+            result.key = "f" + std::string(to_string(kind_of(e)));
+            sort_operands(result, ",");
+            result.key += ")";
+        } else {
+            throw std::logic_error("unexpected expression in a model");
         }
-        if (GiNaC::is_a<GiNaC::numeric>(e)) {
-            return "~" + to_fraction(to_rational(e));
-        }
-        if (GiNaC::is_a<GiNaC::constant>(e)) {
-            return "~pi";
-        }
-        if (GiNaC::is_a<GiNaC::power>(e)) {
-            return key(e.op(0)) + "^" + key(e.op(1));
-        }
-        std::string text = GiNaC::is_a<GiNaC::add>(e)   ? "a"
-                           : GiNaC::is_a<GiNaC::mul>(e) ? ""
-                           : GiNaC::is_a<GiNaC::function>(e)
-                               ? "f" + std::string(to_string(kind_of(e)))
-                               : throw std::logic_error("unexpected expression in a model");
-        for (const keyed& operand : sorted(e)) {
-            text += operand.key + (GiNaC::is_a<GiNaC::mul>(e) ? "*" : ",");
-        }
-        return GiNaC::is_a<GiNaC::mul>(e) ? text : text + ")";
+        return result;
     }
 
-    std::vector<keyed> sorted(const ex& e) const {
-        std::vector<keyed> operands;
-        for (const ex& operand : e) {
-            operands.push_back({key(operand), operand});
+    void sort_operands(ordered& of, const char* separator) const {
+        of.operands.reserve(of.value.nops());
+        for (const ex& operand : of.value) {
+            of.operands.push_back(in_order(operand));
         }
-        std::stable_sort(operands.begin(), operands.end(), by_key);
-        return operands;
+        std::stable_sort(of.operands.begin(), of.operands.end(),
+                         [](const ordered& a, const ordered& b) { return a.key < b.key; });
+        for (const ordered& operand : of.operands) {
+            of.key.append(operand.key).append(separator);
+        }
     }
 
-    signed_node build(const ex& e) {
-        if (GiNaC::is_a<GiNaC::symbol>(e)) {
-            return symbols_.at(e).second;
+    signed_node build(const ex& e) { return build(in_order(e)); }
+
+    signed_node build(const ordered& term) {
+        const ex& e = term.value;
+        if (GiNaC::is_exactly_a<GiNaC::symbol>(e)) {
+            return term.node;
         }
-        if (GiNaC::is_a<GiNaC::numeric>(e)) {
+        if (GiNaC::is_exactly_a<GiNaC::numeric>(e)) {
             return graph_.constant(to_rational(e));
         }
-        if (GiNaC::is_a<GiNaC::constant>(e)) {
+        if (GiNaC::is_exactly_a<GiNaC::constant>(e)) {
             return graph_.constant(to_rational(constant_value(e, {})));
         }
-        if (GiNaC::is_a<GiNaC::power>(e)) {
+        if (GiNaC::is_exactly_a<GiNaC::power>(e)) {
             return build_power(e.op(0), e.op(1));
         }
-        if (GiNaC::is_a<GiNaC::function>(e)) {
+        if (GiNaC::is_exactly_a<GiNaC::function>(e)) {
             const signed_node argument = build(e.op(0).expand());
             return graph_.function(kind_of(e), argument);
         }
-        return GiNaC::is_a<GiNaC::add>(e) ? build_sum(e) : build_product(e);
+        return GiNaC::is_exactly_a<GiNaC::add>(e) ? build_sum(term) : build_product(term);
     }
 
-    signed_node build_sum(const ex& e) {
+    signed_node build_sum(const ordered& sum_of) {
         signed_node sum = graph_.zero();
-        for (const keyed& operand : sorted(e)) {
-            const signed_node term = build(operand.value);
+        for (const ordered& operand : sum_of.operands) {
+            const signed_node term = build(operand);
             sum = graph_.add(sum, term);
         }
         return sum;
     }
 
-    signed_node build_product(const ex& e) {
-        signed_node product = graph_.one();
-        signed_node divisor = graph_.one();
-        for (const keyed& operand : sorted(e)) {
+    signed_node build_product(const ordered& product_of) {
+        const signed_node one = graph_.one();
+        signed_node product = one;
+        signed_node divisor = one;
+        for (const ordered& operand : product_of.operands) {
             if (is_reciprocal(operand.value)) {
                 const signed_node factor = build_power(operand.value.op(0), -operand.value.op(1));
                 divisor = graph_.multiply(divisor, factor);
             } else {
-                const signed_node factor = build(operand.value);
+                const signed_node factor = build(operand);
                 product = graph_.multiply(product, factor);
             }
         }
-        return graph_.divide(product, divisor);
+        return divisor == one ? product : graph_.divide(product, divisor);
     }
 
     static bool is_reciprocal(const ex& e) {
@@ -170,7 +180,7 @@ class graph_builder {
             const signed_node b = build(expanded);
             return graph_.power(b, exponent);
         }
-        const ex first = sorted(expanded).front().value;
+        const ex first = in_order(expanded).operands.front().value;
         const ex factor = GiNaC::is_a<GiNaC::mul>(first) && GiNaC::is_a<GiNaC::numeric>(first.op(first.nops() - 1))
                               ? first.op(first.nops() - 1)
                               : ex(1);
@@ -179,8 +189,13 @@ class graph_builder {
         return graph_.multiply(scale, graph_.power(b, exponent));
     }
 
+    struct known_symbol {
+        std::string key;
+        signed_node value;
+    };
+
     expression_graph graph_;
-    std::map<ex, std::pair<int, signed_node>, GiNaC::ex_is_less> symbols_;
+    std::unordered_map<ex, known_symbol> symbols_;
 };
 
 }  // namespace

@@ -40,7 +40,9 @@ void declare_signals(symbolic_model& model, const standard_parameters& parameter
 GiNaC::ex effect_torque(const standard_parameters& parameters, const parameter_values& values, int coordinate) {
     GiNaC::ex torque = 0;
     for (std::size_t p = 0; p < parameters.all.size(); ++p) {
-        torque += parameters.all[p].column_at(coordinate) * values[p];
+        for (const auto& [acted_on, column] : parameters.all[p].columns) {
+            torque += acted_on == coordinate ? column * values[p] : GiNaC::ex(0);
+        }
     }
     return torque;
 }

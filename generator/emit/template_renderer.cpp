@@ -73,14 +73,16 @@ class context_data {
         }
         data_.set(key, entries);
     }
-    /// Lines of a section whose tag is "text"; the tag is known even where there is no line.
+    /// Lines of a section whose tag is "text"; the tag is known even where there is no line. There are thousands of
+    /// them, so they are put in place with as few copies as the library allows.
     void set_lines(const std::string& key, const std::vector<std::string>& lines) {
-        std::vector<context_data> list;
+        kainjow::mustache::list entries;
+        entries.reserve(lines.size());
         for (const std::string& line : lines) {
-            list.emplace_back().set("text", line);
+            entries.emplace_back("text", line);
         }
-        keys_.insert("text");
-        set(key, list);
+        keys_.insert({key, "text"});
+        data_[key] = data{entries};
     }
     /// The keys of an entry, for a list that may be empty.
     void know(const context_data& entry) { keys_.insert(entry.keys_.begin(), entry.keys_.end()); }

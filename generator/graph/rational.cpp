@@ -2,12 +2,24 @@
 
 #include <cln/integer.h>
 #include <cln/integer_io.h>
-#include <cln/rational_io.h>
 #include <fmt/format.h>
 
 #include <sstream>
 
 namespace idim::generator {
+
+namespace {
+
+std::string text(const cln::cl_I& value) {
+    if (cln::integer_length(value) < 63) {
+        return std::to_string(cln::cl_I_to_long(value));
+    }
+    std::ostringstream stream;
+    stream << value;
+    return stream.str();
+}
+
+}  // namespace
 
 double to_double(const rational& value) {
     return cln::double_approx(value);
@@ -18,9 +30,9 @@ std::string to_decimal(const rational& value) {
 }
 
 std::string to_fraction(const rational& value) {
-    std::ostringstream text;
-    text << value;
-    return text.str();
+    const cln::cl_I numerator = cln::numerator(value);
+    const cln::cl_I denominator = cln::denominator(value);
+    return denominator == 1 ? text(numerator) : text(numerator) + "/" + text(denominator);
 }
 
 }  // namespace idim::generator

@@ -23,6 +23,14 @@ Eigen::MatrixXd sampled() {
     return W;
 }
 
+field_matrix matrix(const std::vector<std::vector<prime_field>>& rows) {
+    field_matrix result(rows.front().size());
+    for (const auto& row : rows) {
+        result.append(row);
+    }
+    return result;
+}
+
 /// The same in exact numbers.
 std::vector<std::vector<prime_field>> exact_rows() {
     std::mt19937_64 random(5);
@@ -65,7 +73,7 @@ TEST(ColumnSelection, ExactDecisionIsTheSameAndItsCoefficientsReproduceTheDroppe
     const auto rows = exact_rows();
     for (const indices& preference :
          {indices{0, 1, 2, 3, 4, 5}, indices{5, 4, 3, 2, 1, 0}, indices{3, 0, 5, 1, 2, 4}}) {
-        const exact_selection exact = select_exactly(rows, preference);
+        const exact_selection exact = select_exactly(matrix(rows), preference);
         const column_selection by_qr = select_by_qr(sampled(), preference, 1e-9);
         EXPECT_EQ(exact.kept, by_qr.kept);
         EXPECT_EQ(exact.dropped, by_qr.dropped);
@@ -81,11 +89,49 @@ TEST(ColumnSelection, ExactDecisionIsTheSameAndItsCoefficientsReproduceTheDroppe
     }
 }
 
+TEST(ColumnSelection, LeastSquaresReproduceTheDroppedColumns) {
+    const Eigen::MatrixXd W = sampled();
+    const Eigen::MatrixXd beta = express_by_qr(W, {5, 3, 1}, {2, 0});
+    Eigen::MatrixXd expected(3, 2);
+    expected << 2.0, 0.0, 0.0, 0.5, 0.0, 0.5;                   // c2 = 2 c5, c0 = (c3 + c1) / 2
+    EXPECT_LE((beta - expected).cwiseAbs().maxCoeff(), 1e-14);  // rounding of 30 terms of order one
+}
+
+TEST(ColumnSelection, ExactDecisionDoesNotDependOnTheOrderOfTheRows) {
+    // Rows of a chain of four links: row block i sees the columns of links i and further out, two of them dependent.
+    std::mt19937_64 random(6);
+    std::vector<std::vector<prime_field>> rows;
+    for (std::size_t block = 0; block < 4; ++block) {
+        for (int k = 0; k < 9; ++k) {
+            std::vector<prime_field> row(8);
+            for (std::size_t c = 2 * block; c < 8; ++c) {
+                row[c] = prime_field(random());
+            }
+            row[3] = row[5] + row[6];
+            row[1] = row[0] + row[7] + row[7];
+            rows.push_back(row);
+        }
+    }
+    const indices preference = {6, 7, 4, 5, 2, 0, 3, 1};
+    const exact_selection expected = select_exactly(matrix(rows), preference);
+    EXPECT_EQ(expected.kept, (indices{6, 7, 4, 5, 2, 0}));
+    EXPECT_EQ(expected.dropped, (indices{3, 1}));
+    for (int k = 0; k < 20; ++k) {
+        for (std::size_t i = rows.size(); i > 1; --i) {
+            std::swap(rows[i - 1], rows[random() % i]);
+        }
+        const exact_selection shuffled = select_exactly(matrix(rows), preference);
+        EXPECT_EQ(shuffled.kept, expected.kept);
+        EXPECT_EQ(shuffled.dropped, expected.dropped);
+        EXPECT_EQ(shuffled.beta, expected.beta);
+    }
+}
+
 TEST(ColumnSelection, FewerRowsThanColumnsLimitTheRank) {
     auto rows = exact_rows();
     rows.resize(2);
-    EXPECT_EQ(select_exactly(rows, {0, 1, 2, 3, 4, 5}).kept.size(), 2u);
-    EXPECT_TRUE(select_exactly({{prime_field(), prime_field()}}, {0, 1}).kept.empty());
+    EXPECT_EQ(select_exactly(matrix(rows), {0, 1, 2, 3, 4, 5}).kept.size(), 2u);
+    EXPECT_TRUE(select_exactly(matrix({{prime_field(), prime_field()}}), {0, 1}).kept.empty());
 }
 
 }  // namespace idim::generator

@@ -4,6 +4,7 @@
 
 #include <Eigen/SVD>
 #include <algorithm>
+#include <map>
 #include <random>
 
 #include "base_parameters/base_parameter_set.hpp"
@@ -200,6 +201,78 @@ TEST(RegroupingOfObliqueAxes, FollowsTheClosedRulesByFormulasProvenInRationals) 
     ASSERT_NE(mx2, base.parameters.end());
     EXPECT_EQ(mx2->regroups, "MX2 + D*M3 + D*M4");
     expect_closed_rules(file);
+}
+
+TEST(RegroupingAcrossMasslessLinks, IsByFormulasInTheConstantsBetween) {
+    // A universal joint: the second link has no mass, and the axes of joints 2 and 3 meet in a point that both link 1
+    // and link 3 hold. A mass there belongs to either: M3 - h MZ3 + h^2 (XX3 + YY3) = d^2 ZZ1 + d MX1.
+    const temporary_folder folder;
+    const generator::base_report base =
+        generator::find_base(folder.write("universal.yaml",
+                                          "name: universal\nconstants: {d: 0.3, h: 0.2}\njoints:\n"
+                                          "  - {name: j1, alpha: pi/2, theta: q}\n"
+                                          "  - {name: j2, alpha: pi/2, d: d, theta: q, massless: true}\n"
+                                          "  - {name: j3, alpha: pi/2, theta: q, r: h}\n"),
+                             templates_folder);
+    EXPECT_EQ(base.modulo_prime_only, 0);
+    EXPECT_EQ(base.standard, 20);
+    std::map<std::string, std::string> regrouped;
+    for (const generator::parameter_context& parameter : base.parameters) {
+        if (parameter.name != parameter.regroups) {
+            regrouped[parameter.name] = parameter.regroups;
+        }
+    }
+    const std::map<std::string, std::string> expected = {{"ZZ1R", "ZZ1 + d^2*M3"},
+                                                         {"MX1R", "MX1 + d*M3"},
+                                                         {"XX3R", "XX3 - h^2*M3"},
+                                                         {"YY3R", "YY3 - h^2*M3"},
+                                                         {"MZ3R", "MZ3 + h*M3"}};
+    EXPECT_EQ(regrouped, expected);
+}
+
+TEST(CoupledJoints, HaveTheRankOfTheKdlRegressorOfTheirCoordinates) {
+    // A link that turns with the base of its parallelogram and one that turns twice against the third: the angles q2,
+    // q3 - q2 and 2 q3 are not independent.
+    const temporary_folder folder;
+    const std::string head = "name: coupled\njoints:\n  - {name: j1, theta: q}\n";
+    const auto rows = [](const std::string& third, const std::string& fourth) {
+        return "  - {name: j2, alpha: pi/2, d: 0.3, theta: q}\n  - {name: j3, d: 0.4, theta: " + third +
+               "}\n  - {name: j4, d: 0.2, theta: " + fourth + "}\n";
+    };
+    const generator::base_report coupled =
+        generator::find_base(folder.write("coupled.yaml", head + rows("q - q_j2", "-2*q_j3")), templates_folder);
+    const mdh_table table = mdh_table_of(generator::read_robot(folder.write("free.yaml", head + rows("q", "q"))));
+    Eigen::MatrixXd G(4, 3);  // joint velocities by coordinates
+    G << 1, 0, 0, 0, 1, 0, 0, -1, 1, 0, 0, -2;
+    Eigen::MatrixXd W(3 * 30, 40);
+    std::mt19937_64 random(13);
+    for (Eigen::Index k = 0; k < 30; ++k) {
+        const joint_state s = random_state(3, random);
+        W.middleRows(3 * k, 3) = G.transpose() * kdl_regressor(table, {G * s.q, G * s.qd, G * s.qdd});
+    }
+    const rank_by_svd svd = find_rank(W);
+    EXPECT_EQ(static_cast<Eigen::Index>(coupled.parameters.size()), svd.rank);
+    EXPECT_EQ(coupled.exact_rank, coupled.qr_rank);
+    EXPECT_GT(svd.smallest_counted, 1e-6);
+    EXPECT_LT(svd.largest_left, 1e-13);
+}
+
+TEST(RigidLinksAlone, HaveTheOperationsOfTheRobotWithoutEffects) {
+    const auto counts = [](const generator::operation_table& table) {
+        std::vector<int> numbers;
+        for (const generator::operation_count& c :
+             {table.inverse_dynamics, table.regressor, table.mass_matrix, table.forward_dynamics}) {
+            numbers.insert(numbers.end(), {c.mul, c.add, c.div, c.functions});
+        }
+        return numbers;
+    };
+    for (const std::string& robot : robot_names()) {
+        const temporary_folder folder;
+        const std::string without = write_variant(folder, robot, rigid);
+        EXPECT_EQ(counts(generator::generate(robot_file(robot), templates_folder).rigid_operations),
+                  counts(generator::generate(without, templates_folder).operations))
+            << robot;
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(RevoluteRobots, Regrouping,
