@@ -24,6 +24,7 @@ std::string read_text(const std::string& path) {
 
 loaded_robot load_robot(const std::string& robot_file) {
     generator::generated_model generated = generator::generate(robot_file, templates_folder());
+    print_notes(robot_file, generated.base.notes);
     std::vector<model_source> sources;
     for (const generator::rendered_file& file : generated.files) {
         sources.push_back({file.name, file.text});
