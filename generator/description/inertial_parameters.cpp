@@ -1,5 +1,7 @@
 #include "description/inertial_parameters.hpp"
 
+#include <stdexcept>
+
 #include "description/rigid_pose.hpp"
 
 namespace idim::generator {
@@ -75,6 +77,9 @@ inertial_parameters parameters_of(const urdf_inertial& inertial, const link_plac
 
 urdf_inertial inertial_of(const inertial_parameters& parameters, const link_placement& placement) {
     const body in_ours = {decimal_of(parameters[9]), vector_of(&parameters[6]), symmetric_of(parameters.data())};
+    if (in_ours.mass == 0 && in_ours.moments != decimal_vector::Zero()) {
+        throw std::invalid_argument("first moments without a mass, expected a mass other than zero");
+    }
     const body in_link = seen_from(in_ours, pose_of(placement).inverse());
     urdf_inertial inertial;
     inertial.mass = parameters[9];

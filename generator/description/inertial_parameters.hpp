@@ -30,8 +30,8 @@ struct link_placement {
 /// Parameters in our frame of a link whose inertia the URDF gives. inertial.rpy is used, not that of the placement.
 inertial_parameters parameters_of(const urdf_inertial& inertial, const link_placement& placement);
 
-/// The other way; rpy is that of the placement. A link without mass keeps its inertia, and has its centre at its
-/// origin.
+/// The other way; rpy is that of the placement. A link without mass keeps its inertia, about its origin. Throws
+/// std::invalid_argument for first moments without a mass, which no URDF can hold.
 urdf_inertial inertial_of(const inertial_parameters& parameters, const link_placement& placement);
 
 }  // namespace idim::generator

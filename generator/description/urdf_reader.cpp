@@ -301,13 +301,18 @@ class urdf_file {
         }
     }
 
+    /// Named from the link of the cycle that comes first in the file.
     [[noreturn]] void refuse_cycle(int on_cycle) const {
-        std::string names = quote(link_name(on_cycle));
+        int first = on_cycle;
         for (int link = link_above(on_cycle); link != on_cycle; link = link_above(link)) {
-            names = quote(link_name(link)) + " -> " + names;
+            first = std::min(first, link);
         }
-        throw input_error(tree_.links[static_cast<std::size_t>(on_cycle)].where,
-                          "links form a cycle: " + quote(link_name(on_cycle)) + " -> " + names + ", expected a tree");
+        std::string names = quote(link_name(first));
+        for (int link = link_above(first); link != first; link = link_above(link)) {
+            names.insert(0, quote(link_name(link)) + " -> ");
+        }
+        throw input_error(tree_.links[static_cast<std::size_t>(first)].where,
+                          "links form a cycle: " + quote(link_name(first)) + " -> " + names + ", expected a tree");
     }
 
     void read_values() {
@@ -324,24 +329,23 @@ class urdf_file {
         }
     }
 
-    /// urdfdom's first message, with the place of the first link or joint that a message names in brackets.
+    /// urdfdom's first message, with the place of the first joint or link that its messages name in brackets.
     [[noreturn]] void refuse(const std::vector<std::string>& errors) const {
-        input_location where = {file_, 0, ""};
-        for (const std::string& message : errors) {
-            const std::size_t open = message.rfind('[');
-            const std::string name =
-                open == std::string::npos ? "" : message.substr(open + 1, message.rfind(']') - open - 1);
-            if (const auto joint = joint_index_.find(name); joint != joint_index_.end()) {
-                where = tree_.joints[static_cast<std::size_t>(joint->second)].where;
-                break;
-            }
-            if (const auto link = link_index_.find(name); link != link_index_.end()) {
-                where = tree_.links[static_cast<std::size_t>(link->second)].where;
-                break;
+        const std::string message = errors.empty() ? "expected a URDF" : errors.front();
+        for (const std::string& error : errors) {
+            for (std::size_t open = error.find('['); open != std::string::npos; open = error.find('[', open + 1)) {
+                const std::string name = error.substr(open + 1, error.find(']', open) - open - 1);
+                const auto joint = joint_index_.find(name);
+                const auto link = link_index_.find(name);
+                if (joint != joint_index_.end() || link != link_index_.end()) {
+                    throw input_error(joint != joint_index_.end()
+                                          ? tree_.joints[static_cast<std::size_t>(joint->second)].where
+                                          : tree_.links[static_cast<std::size_t>(link->second)].where,
+                                      "not URDF: " + message.substr(0, 200));
+                }
             }
         }
-        const std::string message = errors.empty() ? "expected a URDF" : errors.front();
-        throw input_error(where, "not URDF: " + message.substr(0, 200));
+        throw input_error({file_, 0, ""}, "not URDF: " + message.substr(0, 200));
     }
 
     std::array<double, 3> read_angles(const xml_element& element, const std::string& field) {

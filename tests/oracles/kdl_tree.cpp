@@ -35,11 +35,11 @@ KDL::Joint joint_of(const urdf::Joint& joint) {
     switch (joint.type) {
         case urdf::Joint::REVOLUTE:
         case urdf::Joint::CONTINUOUS:
-            return {joint.name, origin.p, origin.M * to_kdl(joint.axis), KDL::Joint::RotAxis};
+            return KDL::Joint(joint.name, origin.p, origin.M * to_kdl(joint.axis), KDL::Joint::RotAxis);
         case urdf::Joint::PRISMATIC:
-            return {joint.name, origin.p, origin.M * to_kdl(joint.axis), KDL::Joint::TransAxis};
+            return KDL::Joint(joint.name, origin.p, origin.M * to_kdl(joint.axis), KDL::Joint::TransAxis);
         case urdf::Joint::FIXED:
-            return {joint.name, KDL::Joint::None};
+            return KDL::Joint(joint.name, KDL::Joint::None);
         default:
             throw std::runtime_error("joint " + joint.name + " has a type that KDL does not know");
     }

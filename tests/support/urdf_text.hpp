@@ -27,6 +27,14 @@ inline Eigen::Matrix3d rotation_of(const triple& rpy) {
         .toRotationMatrix();
 }
 
+inline double draw(double bound, std::mt19937_64& random) {
+    return std::uniform_real_distribution<double>(-bound, bound)(random);
+}
+
+inline triple draw_triple(double bound, std::mt19937_64& random) {
+    return {draw(bound, random), draw(bound, random), draw(bound, random)};
+}
+
 /// A URDF that grows element by element; numbers are written so that they read back exactly.
 class urdf_text {
   public:
@@ -48,6 +56,17 @@ class urdf_text {
             name, origin_text({{body.centre.x(), body.centre.y(), body.centre.z()}, rpy}), body.mass, I(0, 0), I(0, 1),
             I(0, 2), I(1, 1), I(1, 2), I(2, 2));
         return *this;
+    }
+
+    /// A link with the inertial frame along its principal axes: the tensor is diagonal.
+    urdf_text& principal_link(const std::string& name, std::mt19937_64& random) {
+        rigid_link body = plausible_links(1, random).front();
+        const triple rpy = {draw(3.0, random), draw(3.0, random), draw(3.0, random)};
+        const Eigen::Vector3d extent = Eigen::Vector3d(0.08, 0.06, 0.04) + 0.02 * Eigen::Vector3d(body.centre);
+        const Eigen::Vector3d second = body.mass * extent.cwiseAbs2();
+        const Eigen::Vector3d moments = second.sum() * Eigen::Vector3d::Ones() - second;
+        body.central_inertia = rotation_of(rpy) * moments.asDiagonal() * rotation_of(rpy).transpose();
+        return link(name, body, rpy);
     }
 
     /// `more`: further elements of the joint.
@@ -73,14 +92,6 @@ class urdf_text {
 
     std::string text_;
 };
-
-inline double draw(double bound, std::mt19937_64& random) {
-    return std::uniform_real_distribution<double>(-bound, bound)(random);
-}
-
-inline triple draw_triple(double bound, std::mt19937_64& random) {
-    return {draw(bound, random), draw(bound, random), draw(bound, random)};
-}
 
 inline urdf_origin random_origin(std::mt19937_64& random) {
     return {draw_triple(0.4, random), draw_triple(3.0, random)};
