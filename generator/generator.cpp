@@ -30,6 +30,7 @@ robot_model load(const std::string& robot_file, const std::string& templates) {
 base_report report(const robot_model& model) {
     base_report result;
     result.robot = model.description.name;
+    result.notes = model.description.notes;
     for (const base_parameter& base : model.base.parameters) {
         result.parameters.push_back({base.name, base.unit, base.formula});
     }

@@ -18,6 +18,7 @@ struct base_report {
     std::vector<parameter_context> parameters;
     int standard = 0;
     std::vector<std::string> without_effect;
+    std::vector<std::string> notes;  ///< what a user should know of how the description was read
     int qr_rank = 0;
     double smallest_kept_pivot = 0.0;
     double largest_dropped_pivot = 0.0;

@@ -15,6 +15,12 @@ void add_json_option(CLI::App& command, std::string& file) {
     command.add_option("--json", file, "write the result as JSON to this file, - for standard output");
 }
 
+void print_notes(const std::string& file, const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) {
+        fmt::print(stderr, "idim: {}: note: {}\n", file, note);
+    }
+}
+
 bool prints_text(const std::string& json_file) {
     return json_file != "-";
 }

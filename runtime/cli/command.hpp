@@ -4,6 +4,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace idim::cli {
 
@@ -30,6 +31,9 @@ void add_json_option(CLI::App& command, std::string& file);
 /// empty. "idim_version" is
 /// put in front. Throws input_error where it cannot be written.
 void write_json(const std::string& file, const json& content);
+
+/// Writes what was noted while reading a file to standard error, one line each.
+void print_notes(const std::string& file, const std::vector<std::string>& notes);
 
 /// True where the text for people should be printed: not when the JSON goes to standard output.
 bool prints_text(const std::string& json_file);

@@ -80,6 +80,7 @@ int check_folder(const generator::generated_model& model, const generate_options
 
 int run(const generate_options& options) {
     const generator::generated_model model = generator::generate(options.robot, templates_folder(), options.wanted);
+    print_notes(options.robot, model.base.notes);
     if (options.check) {
         return check_folder(model, options);
     }
@@ -97,7 +98,7 @@ int run(const generate_options& options) {
 void add_generate_command(CLI::App& app, action& chosen) {
     const auto options = std::make_shared<generate_options>();
     CLI::App* command = app.add_subcommand("generate", "code of the robot's models");
-    command->add_option("robot", options->robot, "robot description (.yaml)")->required();
+    command->add_option("robot", options->robot, "robot description (.yaml, .urdf)")->required();
     command->add_option("-o,--output", options->folder, "folder for the code")->required();
     command->add_option("--target", options->wanted.target, "language of the code")
         ->check(CLI::IsMember(generator::target_names()))

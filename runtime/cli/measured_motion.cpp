@@ -33,6 +33,7 @@ compiled_model compile_files(const std::vector<generator::rendered_file>& files,
 
 loaded_robot load_robot(const std::string& robot_file) {
     generator::generated_model generated = generator::generate(robot_file, templates_folder());
+    print_notes(robot_file, generated.base.notes);
     compiled_model compiled = compile_files(generated.files, generated.input_hash);
     return {std::move(generated), std::move(compiled)};
 }
