@@ -26,7 +26,7 @@ constexpr std::size_t spare_draws = 3;  // of a fit, likewise
 /// An irrational number has a fraction with the same residue too, but one with long parts: of random residues one in a
 /// million has a fraction as short as this.
 bool is_short(const constant_polynomial& polynomial) {
-    constexpr int longest = 1 << 20;
+    static const rational longest = 1 << 20;
     return std::all_of(polynomial.terms.begin(), polynomial.terms.end(), [](const auto& term) {
         return cln::abs(cln::numerator(term.second)) < longest && cln::denominator(term.second) < longest;
     });
