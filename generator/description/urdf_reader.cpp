@@ -8,6 +8,7 @@
 #include <map>
 #include <sstream>
 
+#include "description/angle_reader.hpp"
 #include "description/decimal.hpp"
 #include "description/text_file.hpp"
 #include "description/xml_element.hpp"
@@ -80,76 +81,24 @@ double not_negative(double value, const input_location& where, const char* what)
     return checked(value, where);
 }
 
-std::string joined(const std::vector<int>& numbers) {
+/// "a" -> "b" -> "a", the middle left out where it is long.
+std::string cycle_text(const std::vector<std::string>& names) {
+    constexpr std::size_t most_names = 6;
     std::string text;
-    for (const int number : numbers) {
-        text += (text.empty() ? "" : ", ") + std::to_string(number);
+    for (std::size_t i = 0; i < std::min(names.size(), most_names); ++i) {
+        text += quote(names[i]) + " -> ";
     }
-    return text;
+    return text + (names.size() > most_names ? "... -> " : "") + quote(names.front());
 }
 
-/// Angles of the file that are not taken as written, or nearly were not.
-class angle_reader {
-  public:
-    double read(const std::string& text, const input_location& where) {
-        const std::optional<double> number = as_number(text);
-        if (!number || !std::isfinite(*number)) {
-            throw input_error(where, "expected a finite angle, got " + quote(text));
-        }
-        const written_angle angle(text);
-        const double radians = nearest_double(angle.radians);
-        constexpr double double_precision = 1e-12;
-        if (angle.quarter_turns == 0 && written_angle(text, 2).quarter_turns != 0) {
-            note(nearly_, text, where.line);
-        } else if (std::abs(radians - *number) > double_precision) {
-            note(rounded_, text + " as " + quarter_text(angle.quarter_turns), where.line);
-        }
-        return radians;
-    }
-
-    std::vector<std::string> notes() const {
-        std::vector<std::string> result;
-        if (!rounded_.empty()) {
-            result.push_back("angles read as multiples of pi/2: " + listed(rounded_));
-        }
-        if (!nearly_.empty()) {
-            result.push_back("angles with too few decimals to be a multiple of pi/2, read as written: " +
-                             listed(nearly_));
-        }
-        return result;
-    }
-
-  private:
-    using lines_of = std::vector<std::pair<std::string, std::vector<int>>>;
-
-    static std::string quarter_text(int turns) {
-        const std::string sign = turns < 0 ? "-" : "";
-        const int magnitude = std::abs(turns);
-        const int numerator = magnitude % 2 == 0 ? magnitude / 2 : magnitude;
-        return sign + (numerator == 1 ? "" : std::to_string(numerator) + "*") + (magnitude % 2 == 0 ? "pi" : "pi/2");
-    }
-
-    static void note(lines_of& list, const std::string& text, int line) {
-        auto entry = std::find_if(list.begin(), list.end(), [&text](const auto& known) { return known.first == text; });
-        if (entry == list.end()) {
-            entry = list.insert(list.end(), {text, {}});
-        }
-        if (entry->second.empty() || entry->second.back() != line) {
-            entry->second.push_back(line);
-        }
-    }
-
-    static std::string listed(const lines_of& list) {
-        std::string text;
-        for (const auto& [angle, lines] : list) {
-            text +=
-                (text.empty() ? "" : "; ") + angle + (lines.size() == 1 ? " (line " : " (lines ") + joined(lines) + ")";
-        }
-        return text;
-    }
-
-    lines_of rounded_, nearly_;
-};
+/// A message of urdfdom, which may quote whatever the file holds.
+std::string printable(std::string message) {
+    constexpr std::size_t longest = 200;
+    message.resize(std::min(message.size(), longest));
+    std::replace_if(
+        message.begin(), message.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    return message;
+}
 
 class urdf_file {
   public:
@@ -177,8 +126,7 @@ class urdf_file {
 
     void check_root() {
         if (root_.name != "robot") {
-            throw input_error(at(root_),
-                              "expected a URDF, <robot name=\"...\">, got <" + root_.name.substr(0, 40) + ">");
+            throw input_error(at(root_), "expected a URDF, <robot name=\"...\">, got element " + quote(root_.name));
         }
         const std::string* name = root_.attribute("name");
         if (name == nullptr) {
@@ -303,16 +251,17 @@ class urdf_file {
 
     /// Named from the link of the cycle that comes first in the file.
     [[noreturn]] void refuse_cycle(int on_cycle) const {
-        int first = on_cycle;
+        std::vector<int> cycle = {on_cycle};
         for (int link = link_above(on_cycle); link != on_cycle; link = link_above(link)) {
-            first = std::min(first, link);
+            cycle.insert(cycle.begin(), link);
         }
-        std::string names = quote(link_name(first));
-        for (int link = link_above(first); link != first; link = link_above(link)) {
-            names.insert(0, quote(link_name(link)) + " -> ");
+        std::rotate(cycle.begin(), std::min_element(cycle.begin(), cycle.end()), cycle.end());
+        std::vector<std::string> names;
+        for (const int link : cycle) {
+            names.push_back(link_name(link));
         }
-        throw input_error(tree_.links[static_cast<std::size_t>(first)].where,
-                          "links form a cycle: " + quote(link_name(first)) + " -> " + names + ", expected a tree");
+        throw input_error(tree_.links[static_cast<std::size_t>(cycle.front())].where,
+                          "links form a cycle: " + cycle_text(names) + ", expected a tree");
     }
 
     void read_values() {
@@ -331,7 +280,7 @@ class urdf_file {
 
     /// urdfdom's first message, with the place of the first joint or link that its messages name in brackets.
     [[noreturn]] void refuse(const std::vector<std::string>& errors) const {
-        const std::string message = errors.empty() ? "expected a URDF" : errors.front();
+        const std::string message = "not URDF: " + (errors.empty() ? "expected a tree" : printable(errors.front()));
         for (const std::string& error : errors) {
             for (std::size_t open = error.find('['); open != std::string::npos; open = error.find('[', open + 1)) {
                 const std::string name = error.substr(open + 1, error.find(']', open) - open - 1);
@@ -341,11 +290,11 @@ class urdf_file {
                     throw input_error(joint != joint_index_.end()
                                           ? tree_.joints[static_cast<std::size_t>(joint->second)].where
                                           : tree_.links[static_cast<std::size_t>(link->second)].where,
-                                      "not URDF: " + message.substr(0, 200));
+                                      message);
                 }
             }
         }
-        throw input_error({file_, 0, ""}, "not URDF: " + message.substr(0, 200));
+        throw input_error({file_, 0, ""}, message);
     }
 
     std::array<double, 3> read_angles(const xml_element& element, const std::string& field) {
@@ -501,13 +450,12 @@ class urdf_file {
     }
 
     [[noreturn]] void refuse_mimics(const std::vector<int>& cycle) {
-        std::string names;
+        std::vector<std::string> names;
         for (const int joint : cycle) {
-            names += quote(joint_at(joint).name) + " -> ";
+            names.push_back(joint_at(joint).name);
         }
-        throw input_error(joint_at(cycle.front()).where, "joints mimic each other: " + names +
-                                                             quote(joint_at(cycle.front()).name) +
-                                                             ", expected one that is driven");
+        throw input_error(joint_at(cycle.front()).where,
+                          "joints mimic each other: " + cycle_text(names) + ", expected one that is driven");
     }
 
     const std::string& file_;

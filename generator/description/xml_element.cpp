@@ -14,6 +14,17 @@ constexpr std::string_view ends_of_name = " \t\r\n=/><\"'&";
 constexpr std::array<std::pair<std::string_view, char>, 5> entities = {
     {{"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}}};
 
+enum class name_part { none, inside, start };
+
+/// Where a character may stand in a name; bytes of other alphabets are not told apart.
+name_part place_in_name(char c) {
+    const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == ':';
+    if (is_letter || static_cast<unsigned char>(c) >= 0x80) {
+        return name_part::start;
+    }
+    return (c >= '0' && c <= '9') || c == '-' || c == '.' ? name_part::inside : name_part::none;
+}
+
 class xml_scanner {
   public:
     xml_scanner(std::string_view text, const std::string& file, const xml_limits& limits)
@@ -90,10 +101,14 @@ class xml_scanner {
 
     std::string read_name(const char* expected) {
         const std::size_t end = std::min(text_.find_first_of(ends_of_name, at_), text_.size());
-        if (end == at_) {
+        std::string name(text_.substr(at_, end - at_));
+        if (name.empty()) {
             fail(std::string("not XML: expected ") + expected);
         }
-        std::string name(text_.substr(at_, end - at_));
+        if (place_in_name(name.front()) != name_part::start ||
+            !std::all_of(name.begin(), name.end(), [](char c) { return place_in_name(c) != name_part::none; })) {
+            fail("not XML: " + quote(name) + " is no name, expected " + expected);
+        }
         move_to(end);
         return name;
     }

@@ -23,11 +23,13 @@ std::vector<std::size_t> coupled_with(const std::vector<std::vector<ex>>& M, std
 }
 
 /// M = L' D L from the last joint inward, which fills in nothing that branches leave zero (Featherstone 2008, ch. 6.5).
-/// On return the strict lower triangle of M holds L and the diagonal D.
+/// On return the strict lower triangle of M holds L and the diagonal D. A pivot that is zero whatever the parameters (a
+/// coordinate that moves nothing with inertia) stays in D, for the caller of the model to find; nothing is divided by
+/// it.
 std::vector<ex> factorise(symbolic_model& model, std::vector<std::vector<ex>>& M) {
     std::vector<ex> reciprocal(M.size());
     for (std::size_t k = M.size(); k-- > 0;) {
-        reciprocal[k] = model.assign(fmt::format("Dinv{}", k + 1), GiNaC::pow(M[k][k], -1));
+        reciprocal[k] = M[k][k].is_zero() ? ex(0) : model.assign(fmt::format("Dinv{}", k + 1), GiNaC::pow(M[k][k], -1));
         const std::vector<std::size_t> inward = coupled_with(M, k);
         for (const std::size_t i : inward) {
             const ex l = model.assign(fmt::format("L{}_{}", k + 1, i + 1), M[k][i] * reciprocal[k]);

@@ -221,7 +221,7 @@ TEST(RobotDescription, AKeyThatIsUnknownOrWrittenTwiceIsRefused) {
               "control, parameters, urdf");
     EXPECT_EQ(error_of(one_joint("theta: q, alfa: 0")),
               "robot.yaml:3: joints[1]: unknown key \"alfa\", expected one of name, type, antecedent, gamma, b, alpha, "
-              "d, theta, r, limits, drive_gain");
+              "d, theta, r, massless, limits, drive_gain");
     EXPECT_EQ(error_of(two_joints("name: again\n")), "robot.yaml:5: duplicate key \"name\", first on line 1");
     EXPECT_EQ(error_of(two_joints("constants:\n  L: 1\n  L: 2\n")),
               "robot.yaml:7: constants: duplicate key \"L\", first on line 6");

@@ -81,7 +81,7 @@ const bad_urdf bad_urdfs[] = {
     {"Empty", "", "robot.urdf: not XML: expected an element such as <robot name=\"...\">"},
     {"MalformedXml", "<robot name=\"r\">\n<link name=\"a\">\n</robot>",
      "robot.urdf:3: not XML: \"</robot>\" does not close"},
-    {"NoUrdf", "<sdf/>", "robot.urdf:1: expected a URDF, <robot name=\"...\">, got <sdf>"},
+    {"NoUrdf", "<sdf/>", "robot.urdf:1: expected a URDF, <robot name=\"...\">, got element \"sdf\""},
     {"UnnamedRobot", "<robot><link name=\"a\"/></robot>", "robot.urdf:1: robot has no name"},
     {"Macros", "<robot name=\"r\">\n<xacro:include filename=\"x\"/></robot>", "robot.urdf:2: macros are not expanded"},
     {"NoLinks", "<robot name=\"r\"/>", "robot.urdf:1: robot has no links, expected <link name=\"...\"/>"},
@@ -116,10 +116,18 @@ const bad_urdf bad_urdfs[] = {
      "<robot name=\"r\">\n" + links("abcd") + joint("i", "a", "b") + joint("j", "c", "d") + joint("k", "d", "c") +
          "</robot>",
      "robot.urdf:2: link \"c\": links form a cycle: \"c\" -> \"d\" -> \"c\", expected a tree"},
+    {"LongCycle",
+     "<robot name=\"r\">\n" + links("abcdefgh") + joint("1", "h", "a") + joint("2", "a", "b") + joint("3", "b", "c") +
+         joint("4", "c", "d") + joint("5", "d", "e") + joint("6", "e", "f") + joint("7", "f", "g") +
+         joint("8", "g", "h") + "</robot>",
+     "robot.urdf:2: link \"a\": links form a cycle: \"a\" -> \"b\" -> \"c\" -> \"d\" -> \"e\" -> \"f\" -> ... -> "
+     "\"a\", expected"},
     {"OwnParent", "<robot name=\"r\">\n" + links("ab") + joint("j", "b", "b") + "</robot>",
      "robot.urdf:2: link \"b\": links form a cycle: \"b\" -> \"b\", expected a tree"},
     {"UnknownJointType", one_joint("", "ball"),
      "robot.urdf:3: joint \"j\": not URDF: Joint [j] has no known type [ball]"},
+    {"TypeThatIsNoText", one_joint("", "b\xc3"),
+     "robot.urdf:3: joint \"j\": not URDF: Joint [j] has no known type [b?]"},
     {"NoLimits", one_joint("", "revolute"), "robot.urdf:3: joint \"j\": not URDF: Joint [j] is of type REVOLUTE but"},
     {"ZeroAxis", one_joint("<axis xyz=\"0 0 0\"/>"), "robot.urdf:3: joint \"j\": axis is zero, expected a direction"},
     {"AxisOfTwoNumbers", one_joint("<axis xyz=\"0 1\"/>"), "robot.urdf:3: joint \"j\": not URDF: Malformed axis"},

@@ -54,6 +54,8 @@ TEST(XmlElement, RefusesWhatIsNotWellFormedWithItsLine) {
         {"<a b='&x;'/>", "f:1: not XML: \"&\" in a value"},
         {"<a / b>", "f:1: not XML: expected />"},
         {"< a/>", "f:1: not XML: expected the name of an element"},
+        {"<a 1b='1'/>", "f:1: not XML: \"1b\" is no name, expected an attribute"},
+        {"<a,b/>", "f:1: not XML: \"a,b\" is no name, expected the name of an element"},
         {"<a/><b/>", "f:1: not XML: a second root element \"b\""},
         {"<a>\n<!-- ", "f:2: not XML: a comment does not end"},
         {"<a><![CDATA[", "f:1: not XML: character data does not end"},

@@ -31,19 +31,22 @@ TEST(UrdfCommand, BaseOfAUrdfPrintsItsParametersAndNotesWhatWasReadOtherwise) {
     EXPECT_EQ(result.out.rfind("two_joints: ", 0), 0u) << result.out;
     EXPECT_NE(result.out.find("  Fv2 [N*m*s/rad]"), std::string::npos) << result.out;
     const std::string note = "idim: " + file + ": note: ";
-    EXPECT_EQ(result.err, note + "angles read as multiples of pi/2: 1.5708 as pi/2 (line 25)\n" + note +
+    EXPECT_EQ(result.err, note + "angles read as multiples of pi/2: 1.5708 as pi/2 (line 26)\n" + note +
                               "names read as identifiers: \"two-joints\" as two_joints\n");
 }
 
-TEST(UrdfCommand, GenerateOfAUrdfIsTheSameFromAYamlThatNamesIt) {
+TEST(UrdfCommand, GenerateOfAUrdfIsThatOfAYamlWhichNamesItButForTheFilesName) {
     const temporary_folder folder;
     const std::string bare = folder.write("arm.urdf", arm());
     const std::string named = folder.write(
         "yaml/arm.yaml", "urdf: ../arm.urdf\neffects: [rotor_inertia, viscous_friction, coulomb_friction]\n");
-    const std::string out = (folder.path() / "model").string();
-    EXPECT_EQ(run_idim({"generate", bare, "-o", out}).status, 0);
-    const command_result check = run_idim({"generate", named, "-o", out, "--check"});
-    EXPECT_EQ(check.status, 0) << check.out << check.err;
+    const std::string first = (folder.path() / "first").string();
+    const std::string second = (folder.path() / "second").string();
+    EXPECT_EQ(run_idim({"generate", bare, "-o", first}).status, 0);
+    EXPECT_EQ(run_idim({"generate", named, "-o", second}).status, 0);
+    std::string text = read_text(first + "/regressor.hpp");
+    text.replace(text.find("arm.urdf"), 8, "arm.yaml");
+    EXPECT_EQ(text, read_text(second + "/regressor.hpp"));
 }
 
 TEST(UrdfCommand, BadUrdfIsBadInputInOneLineAndNothingIsWritten) {

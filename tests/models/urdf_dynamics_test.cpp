@@ -223,6 +223,31 @@ TEST(UrdfDynamics, OfABareFileHaveTheFrictionOfItsJoints) {
     }
 }
 
+TEST(UrdfDynamics, OfAJointThatMovesNothingHaveNoForwardModelWithoutARotor) {
+    urdf_text urdf("end");
+    urdf.massless_link("l0").link("l1", bodies(1, 42).front()).massless_link("tip");
+    urdf.joint("j1", "continuous", "l0", "l1")
+        .joint("j2", "continuous", "l1", "tip", {{0.3, 0.0, 0.0}, {turn, 0.0, 0.0}});
+    const rigid_robot robot(urdf.text());
+    const kdl_tree oracle(urdf.text(), robot.joints());
+    std::mt19937_64 random(43);
+    const joint_state s = random_state(2, random);
+    const Eigen::VectorXd tau = oracle.inverse_dynamics(s);
+    EXPECT_LE(deviation(robot.model->inverse_dynamics(s, robot.chi), tau), 1e-10);
+    int pivot = 0;
+    robot.model->forward_dynamics(s, tau, robot.chi, pivot);
+    EXPECT_EQ(pivot, 2);
+
+    const test_model driven(robot.folder.write(
+        "driven.yaml", "name: driven\nurdf: robot.urdf\neffects: [{effect: rotor_inertia, joints: [j2]}]\n"));
+    value_table parameters = generator::read_robot(robot.folder.path() / "driven.yaml").parameters;
+    parameters["Ia2"] = 0.1;
+    const Eigen::VectorXd chi = driven.regroup(parameters);
+    EXPECT_LE(deviation(driven.forward_dynamics(s, tau + Eigen::Vector2d(0.0, 0.1 * s.qdd[1]), chi, pivot), s.qdd),
+              1e-10);
+    EXPECT_EQ(pivot, 0);
+}
+
 TEST(UrdfDynamics, OfRandomTreesAreThoseOfKdl) {
     std::mt19937_64 random(41);
     for (int k = 0; k < 10; ++k) {

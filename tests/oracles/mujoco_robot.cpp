@@ -9,10 +9,11 @@ namespace idim::test {
 
 namespace {
 
-/// A file of its own, because MuJoCo reads no text; its extension inside the URDF keeps inertias as they are.
+/// A file of its own, because MuJoCo reads no text; its extension inside the URDF keeps inertias and fixed links as
+/// they are.
 mjModel* load(std::string urdf) {
     const std::string settings =
-        "<mujoco><compiler balanceinertia=\"false\" fusestatic=\"true\" discardvisual=\"true\"/></mujoco>\n";
+        "<mujoco><compiler balanceinertia=\"false\" fusestatic=\"false\" discardvisual=\"true\"/></mujoco>\n";
     urdf.insert(urdf.rfind("</robot>"), settings);
     const temporary_folder folder;
     std::array<char, 500> error = {};
