@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <nlohmann/json.hpp>
 
-#include "backend/model_context.hpp"
+#include "backend/model_manifest.hpp"
 #include "emit/content_hash.hpp"
+#include "emit/manifest_file.hpp"
 
 namespace idim::generator {
 
@@ -30,6 +30,7 @@ robot_model load(const std::string& robot_file, const std::string& templates) {
 base_report report(const robot_model& model) {
     base_report result;
     result.robot = model.description.name;
+    result.notes = model.description.notes;
     for (const base_parameter& base : model.base.parameters) {
         result.parameters.push_back({base.name, base.unit, base.formula});
     }
@@ -61,23 +62,14 @@ std::string hash_inputs(const robot_model& model) {
     return content_hash(text);
 }
 
-rendered_file manifest(const generated_model& model) {
-    nlohmann::ordered_json json;
-    json["generator"] = std::string("idim ") + version();
-    json["robot"] = model.robot;
-    json["input_hash"] = model.input_hash;
-    json["files"] = nlohmann::ordered_json::array();
-    for (const rendered_file& file : model.files) {
-        json["files"].push_back(file.name);
+/// The manifest of what was rendered, as a file beside it.
+rendered_file manifest_of(const robot_model& model, const template_context& context, const generated_model& generated) {
+    manifest content = describe(model, context);
+    content.target = generated.target;
+    for (const rendered_file& file : generated.files) {
+        content.files.push_back(file.name);
     }
-    const auto add = [&json](const char* name, const operation_count& count) {
-        json["operations"][name] = {{"mul", count.mul}, {"add", count.add}, {"div", count.div}};
-    };
-    add("inverse_dynamics", model.operations.inverse_dynamics);
-    add("regressor", model.operations.regressor);
-    add("mass_matrix", model.operations.mass_matrix);
-    add("forward_dynamics", model.operations.forward_dynamics);
-    return {"manifest.json", json.dump(2) + "\n"};
+    return {manifest_name, to_json_text(content)};
 }
 
 operation_table table(const model_operations& counts) {
@@ -94,19 +86,22 @@ base_report find_base(const std::string& robot_file, const std::string& template
     return report(load(robot_file, templates));
 }
 
-generated_model generate(const std::string& robot_file, const std::string& templates) {
+generated_model generate(const std::string& robot_file, const std::string& templates,
+                         const generation_options& options) {
     const auto start = std::chrono::steady_clock::now();
     const robot_model model = load(robot_file, templates);
     generated_model result;
     result.robot = model.description.name;
+    result.target = options.target;
     result.base = report(model);
     result.input_hash = hash_inputs(model);
     model_operations counts;
-    const template_context context = build_context(model, version(), result.input_hash, counts);
+    const template_context context =
+        build_context(model, {version(), result.input_hash}, languages_of(options.target), counts);
     result.joints = context.joints;
     result.operations = table(counts);
-    result.files = render_cpp(context, templates + "/cpp");
-    result.files.push_back(manifest(result));
+    result.files = render(context, templates + "/" + options.target);
+    result.files.push_back(manifest_of(model, context, result));
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     result.rigid_operations = model.description.effects.empty() ? result.operations : table(count_rigid(model));
     return result;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "backend/language.hpp"
 #include "emit/template_renderer.hpp"
 #include "graph/operation_count.hpp"
 #include "idim/input_error.hpp"
@@ -17,6 +18,7 @@ struct base_report {
     std::vector<parameter_context> parameters;
     int standard = 0;
     std::vector<std::string> without_effect;
+    std::vector<std::string> notes;  ///< what a user should know of how the description was read
     int qr_rank = 0;
     double smallest_kept_pivot = 0.0;
     double largest_dropped_pivot = 0.0;
@@ -29,9 +31,15 @@ struct operation_table {
     operation_count inverse_dynamics, regressor, mass_matrix, forward_dynamics;
 };
 
+/// What to write of a robot.
+struct generation_options {
+    std::string target = "cpp";  ///< one of target_names()
+};
+
 /// A model of one robot, in memory.
 struct generated_model {
     std::string robot;
+    std::string target;
     std::string input_hash;
     base_report base;
     std::vector<joint_context> joints;
@@ -41,12 +49,13 @@ struct generated_model {
     double seconds = 0.0;
 };
 
-/// Base parameters of a robot description. `templates` is the folder that holds effects/ and cpp/. Throws input_error,
-/// and rank_disagreement (a std::runtime_error) where the rank cannot be proven.
+/// Base parameters of a robot description. `templates` is the folder that holds effects/ and those of the targets.
+/// Throws input_error, and rank_disagreement (a std::runtime_error) where the rank cannot be proven.
 base_report find_base(const std::string& robot_file, const std::string& templates);
 
-/// All models of a robot description as C++ sources.
-generated_model generate(const std::string& robot_file, const std::string& templates);
+/// All models of a robot description as source files.
+generated_model generate(const std::string& robot_file, const std::string& templates,
+                         const generation_options& options = {});
 
 /// The version of idim.
 const char* version();

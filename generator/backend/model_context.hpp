@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "backend/language.hpp"
 #include "backend/template_context.hpp"
 #include "base_parameters/base_parameter_set.hpp"
 #include "description/effect_description.hpp"
@@ -23,8 +24,16 @@ struct robot_model {
     base_parameter_set base;
 };
 
-/// Derives all models of a robot and lays them out for the templates. `operations` receives the counts.
-template_context build_context(const robot_model& model, const std::string& version, const std::string& input_hash,
+/// The constants a description names, in its order, with their values.
+std::vector<std::pair<std::string, double>> named_constants(const robot_model& model);
+
+/// What is written at the head of every file.
+struct file_origin {
+    std::string version, input_hash;
+};
+
+/// Derives all models of a robot and spells them for the templates. `operations` receives the counts.
+template_context build_context(const robot_model& model, const file_origin& origin, const languages& spellings,
                                model_operations& operations);
 
 /// Counts for the same robot without its effects.

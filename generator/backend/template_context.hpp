@@ -7,23 +7,30 @@
 
 namespace idim::generator {
 
-/// One array argument of a generated function.
-struct argument_context {
-    std::string name;
-    std::string declaration;  ///< "const Scalar* q"
-    std::string meaning;      ///< "q [2] joint positions [rad or m]"
-    bool is_output = false;
-    bool used = true;  ///< the body reads or writes it
+/// A function of the target language, spelled.
+struct routine_context {
+    std::string summary;                  ///< one sentence or more
+    std::vector<std::string> meanings;    ///< of the arguments: "q [2] joint positions [rad or m]"
+    std::string signature;                ///< without what ends a declaration or opens a body
+    std::vector<std::string> prologue;    ///< statements before the body's own
+    std::vector<std::string> statements;  ///< one per line (or several lines joined), each ending in ';'
 };
 
-/// One generated function, ready to be printed.
+/// A model over one scalar type.
+struct variant_context {
+    std::string scalar;  ///< "double"
+    std::string suffix;  ///< of the names of functions and files
+    bool calls_sign = false;
+    std::vector<routine_context> routines;
+};
+
+/// One model, ready to be printed.
 struct function_context {
-    std::string name;     ///< "regressor"
-    std::string summary;  ///< one sentence
-    std::vector<argument_context> arguments;
+    std::string name;                   ///< "regressor"
+    std::string summary;                ///< one sentence
+    std::vector<std::string> meanings;  ///< of the arguments of all its routines
     operation_count operations;
-    std::vector<std::string> functions;   ///< of <cmath> in the body: "cos", "sin"
-    std::vector<std::string> statements;  ///< one per line (or several lines joined), each ending in ';'
+    std::vector<variant_context> variants;
 };
 
 struct joint_context {
@@ -51,6 +58,7 @@ struct template_context {
     std::vector<parameter_context> standard_parameters;
     bool uses_time = false;
     bool uses_temperature = false;
+    int sines = 0;  ///< cosines and sines that the models share
     std::vector<function_context> functions;
 };
 

@@ -23,6 +23,15 @@ using GiNaC::ex;
 constexpr std::size_t spare_rows = 5;   // of an elimination: what holds in them too is no accident
 constexpr std::size_t spare_draws = 3;  // of a fit, likewise
 
+/// An irrational number has a fraction with the same residue too, but one with long parts: of random residues one in a
+/// million has a fraction as short as this.
+bool is_short(const constant_polynomial& polynomial) {
+    constexpr int longest = 1 << 20;
+    return std::all_of(polynomial.terms.begin(), polynomial.terms.end(), [](const auto& term) {
+        return cln::abs(cln::numerator(term.second)) < longest && cln::denominator(term.second) < longest;
+    });
+}
+
 prime_field to_field(const rational& value) {
     return prime_field(value);
 }
@@ -294,7 +303,8 @@ std::optional<regrouped_column> regrouping::formula(const formula_table& table, 
         result.coefficient = entry->second;
     }
     result.exact = result.coefficient.value(own_constants_);
-    return to_field(result.exact) == own_.beta[k][d] ? std::optional(result) : std::nullopt;
+    const bool holds = is_short(result.coefficient) && to_field(result.exact) == own_.beta[k][d];
+    return holds ? std::optional(result) : std::nullopt;
 }
 
 regrouped_column regrouping::number(std::size_t k, std::size_t d, double by_qr) const {

@@ -71,6 +71,19 @@ std::string checked_name(const std::string& name, const input_location& where) {
     return name;
 }
 
+std::string nearest_name(const std::string& text, char prefix, const input_location& where) {
+    std::string name = text;
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return !is_letter(c) && !is_digit(c); }, '_');
+    if (name.empty() || !is_letter(name.front())) {
+        name.insert(name.begin(), prefix);
+    }
+    if (is_among(language_names, name)) {
+        name += '_';
+    }
+    return checked_name(name, where);
+}
+
 std::string checked_symbol(const std::string& name, const input_location& where) {
     checked_name(name, where);
     if (is_among(expression_names, name)) {

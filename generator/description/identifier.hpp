@@ -11,6 +11,11 @@ namespace idim::generator {
 /// generated file cannot declare). Throws input_error at `where`; returns `name`.
 std::string checked_name(const std::string& name, const input_location& where);
 
+/// The name that is nearest to `text` by these rules: other characters become underscores, `prefix` (a letter) comes
+/// before what does not begin with a letter, and an underscore behind a name that has a meaning. Throws input_error at
+/// `where` where the result is too long.
+std::string nearest_name(const std::string& text, char prefix, const input_location& where);
+
 /// A name that stands in expressions: constants, linear and shape coefficients. Besides the rules above it is none of
 ///   signals      q qd qdd t temp tau tau_rigid q_from qd_from qdd_from, and those of one joint: q1 qd1 qdd1 tau1 temp1
 ///   numbers      pi e i I

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "description/identifier.hpp"
+#include "description/urdf_robot.hpp"
 #include "description/yaml_reader.hpp"
 
 namespace idim::generator {
@@ -41,6 +42,10 @@ bool read_flag(const yaml_value& value) {
     return text == "true";
 }
 
+std::vector<expression_text> default_gravity(const input_location& where) {
+    return {{"0", where}, {"0", where}, {"-9.81", where}};
+}
+
 std::vector<expression_text> read_gravity(const yaml_fields& robot) {
     std::vector<expression_text> gravity;
     if (const auto written = robot.find("gravity")) {
@@ -53,10 +58,7 @@ std::vector<expression_text> read_gravity(const yaml_fields& robot) {
         }
         return gravity;
     }
-    for (const char* entry : {"0", "0", "-9.81"}) {
-        gravity.push_back({entry, in_field(robot.where(), "gravity")});
-    }
-    return gravity;
+    return default_gravity(in_field(robot.where(), "gravity"));
 }
 
 std::vector<constant_description> read_constants(const yaml_fields& robot) {
@@ -512,6 +514,76 @@ std::string control_text(const control_description& control) {
     return text + "}\n";
 }
 
+/// The URDF file that a YAML file names, from the folder of the YAML file.
+urdf_robot read_named_urdf(const yaml_fields& robot, const yaml_value& written) {
+    if (const auto joints = robot.find("joints")) {
+        throw input_error(joints->where(), "the URDF gives the joints, expected one of joints and urdf");
+    }
+    const std::filesystem::path folder = std::filesystem::path(robot.where().file).parent_path();
+    return read_urdf_robot((folder / written.text("a file such as arm.urdf")).string());
+}
+
+/// Takes over what the URDF gives; effects are known by now.
+void add_urdf(const urdf_robot& urdf, robot_description& robot) {
+    robot.links = urdf.links;
+    robot.notes = urdf.notes;
+    robot.parameters.insert(urdf.inertial.begin(), urdf.inertial.end());
+    for (const effect_use& use : robot.effects) {
+        for (const int joint : use.joints) {
+            const std::string label = parameter_label(robot.joints, joint);
+            if (use.effect == "viscous_friction" && urdf.damping.count(joint) != 0) {
+                robot.parameters.emplace("Fv" + label, urdf.damping.at(joint));
+            } else if (use.effect == "coulomb_friction" && urdf.friction.count(joint) != 0) {
+                robot.parameters.emplace("Fc" + label, urdf.friction.at(joint));
+            }
+        }
+    }
+}
+
+robot_description bare_urdf(const std::string& file) {
+    const urdf_robot urdf = read_urdf_robot(file);
+    robot_description robot;
+    robot.name = urdf.name;
+    robot.gravity = default_gravity({file, 0, "gravity"});
+    robot.joints = urdf.joints;
+    for (const char* effect : {"rotor_inertia", "viscous_friction", "coulomb_friction"}) {
+        if (!urdf.actuated.empty()) {
+            robot.effects.push_back({effect, urdf.actuated, {}, {}, {file, 0, "effects"}});
+        }
+    }
+    add_urdf(urdf, robot);
+    return robot;
+}
+
+robot_description read_yaml_robot(const std::string& file) {
+    const yaml_value root = read_yaml(file);
+    const yaml_fields fields(root,
+                             {"name", "gravity", "constants", "joints", "effects", "control", "parameters", "urdf"});
+    robot_description robot;
+    const auto urdf_file = fields.find("urdf");
+    const auto name = urdf_file ? fields.find("name") : fields.require("name", "the name of the robot");
+    robot.name = name ? checked_name(name->text("the name of the robot"), name->where()) : "";
+    robot.gravity = read_gravity(fields);
+    robot.constants = read_constants(fields);
+    std::optional<urdf_robot> urdf;
+    ordered_joints ordered;
+    if (urdf_file) {
+        urdf = read_named_urdf(fields, *urdf_file);
+        ordered = {urdf->joints, urdf->written_row};
+        robot.name = name ? robot.name : urdf->name;
+    } else {
+        ordered = read_joints(fields.require("joints", "a list of joints"));
+    }
+    robot.joints = ordered.joints;
+    robot.effects = read_effects(fields, robot.joints);
+    robot.control = read_control(fields, ordered);
+    robot.parameters = read_parameters(fields);
+    if (urdf) {
+        add_urdf(*urdf, robot);
+    }
+    return robot;
+}
+
 }  // namespace
 
 bool has_own_coordinate(const joint_description& joint) {
@@ -530,27 +602,17 @@ bool has_own_coordinate(const joint_description& joint) {
     return false;
 }
 
+std::string parameter_label(const std::vector<joint_description>& joints, int joint) {
+    if (!has_own_coordinate(joints[joint])) {
+        return "_" + joints[joint].name;
+    }
+    return std::to_string(1 + std::count_if(joints.begin(), joints.begin() + joint, has_own_coordinate));
+}
+
 robot_description read_robot(const std::string& file) {
-    if (std::filesystem::path(file).extension() == ".urdf") {
-        throw input_error({file, 0, ""}, "urdf input is not built in yet, give joints");
-    }
-    const yaml_value root = read_yaml(file);
-    const yaml_fields fields(root,
-                             {"name", "gravity", "constants", "joints", "effects", "control", "parameters", "urdf"});
-    if (const auto urdf = fields.find("urdf")) {
-        throw input_error(urdf->where(), "urdf input is not built in yet, give joints");
-    }
-    robot_description robot;
+    const bool is_urdf = std::filesystem::path(file).extension() == ".urdf";
+    robot_description robot = is_urdf ? bare_urdf(file) : read_yaml_robot(file);
     robot.file = file;
-    const yaml_value name = fields.require("name", "the name of the robot");
-    robot.name = checked_name(name.text("the name of the robot"), name.where());
-    robot.gravity = read_gravity(fields);
-    robot.constants = read_constants(fields);
-    const ordered_joints ordered = read_joints(fields.require("joints", "a list of joints"));
-    robot.joints = ordered.joints;
-    robot.effects = read_effects(fields, robot.joints);
-    robot.control = read_control(fields, ordered);
-    robot.parameters = read_parameters(fields);
     return robot;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "description/inertial_parameters.hpp"
 #include "idim/input_error.hpp"
 
 namespace idim::generator {
@@ -74,13 +75,22 @@ struct robot_description {
     std::vector<effect_use> effects;
     std::optional<control_description> control;
     std::map<std::string, double> parameters;  ///< a-priori standard parameters
+    std::vector<link_placement> links;         ///< of a URDF: one for each joint, where its link stands in our frame
+    std::vector<std::string> notes;            ///< what a user should know of how the file was read
 };
 
-/// Reads robots/<name>/<name>.yaml. Throws input_error, one line naming file, line, field and what was expected.
+/// Reads robots/<name>/<name>.yaml, or a .urdf file. A YAML file may name one in the place of joints (urdf: arm.urdf,
+/// from its own folder); its `parameters` come before those of the URDF. A bare .urdf file is a robot of its name under
+/// gravity along -z of its root link, with rotor inertia, viscous and Coulomb friction at every joint but those that
+/// mimic others, and planar and floating ones. <dynamics> gives Fv and Fc where these effects act. Throws input_error,
+/// one line naming file, line, field and what was expected.
 robot_description read_robot(const std::string& file);
 
 /// Whether the joint's variable names its own coordinate `q`: otherwise it is fixed or moves with other joints.
 bool has_own_coordinate(const joint_description& joint);
+
+/// Behind the name of every parameter of this joint and its link: the number of its coordinate from 1, or else _<name>.
+std::string parameter_label(const std::vector<joint_description>& joints, int joint);
 
 /// Readable YAML-like listing of a description, for tests and messages.
 std::string to_string(const robot_description& robot);

@@ -5,15 +5,13 @@
 #include <yaml-cpp/parser.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <sstream>
-#include <system_error>
+
+#include "description/text_file.hpp"
 
 namespace idim::generator {
 
@@ -94,36 +92,6 @@ class node_builder : public YAML::EventHandler {
     yaml_node root_;
     std::vector<yaml_node> open_;
 };
-
-std::string read_text(const std::string& file) {
-    const input_location whole_file{file, 0, ""};
-    std::error_code ignored;
-    if (std::filesystem::is_directory(file, ignored)) {
-        throw input_error(whole_file, "is a folder, expected a file");
-    }
-    errno = 0;
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) {
-        throw input_error(whole_file, "cannot be read: " + std::generic_category().message(errno));
-    }
-    std::string text(largest_file + 1, '\0');
-    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(stream.gcount()));
-    if (text.size() > largest_file) {
-        throw input_error(whole_file, "is larger than 1 MB");
-    }
-    return text;
-}
-
-/// yaml-cpp takes the byte 0x04 for the end of the file and would drop what follows in silence.
-void refuse_control_characters(const std::string& text, const std::string& file) {
-    const auto bad = std::find_if(text.begin(), text.end(),
-                                  [](char c) { return is_control(c) && c != '\t' && c != '\n' && c != '\r'; });
-    if (bad != text.end()) {
-        const int line = 1 + static_cast<int>(std::count(text.begin(), bad, '\n'));
-        throw input_error({file, line, ""}, "control character " + quote(std::string(1, *bad)) + ", expected text");
-    }
-}
 
 std::string path_of(const std::string& parent, std::string_view key) {
     const bool plain = std::all_of(key.begin(), key.end(), [](char c) {
@@ -318,8 +286,7 @@ yaml_value yaml_fields::require(std::string_view key, std::string_view expected)
 }
 
 yaml_value read_yaml(const std::string& file) {
-    const std::string text = read_text(file);
-    refuse_control_characters(text, file);
+    const std::string text = read_text_file(file, largest_file);
     std::istringstream stream(text);
     node_builder builder(file);
     try {

@@ -3,12 +3,15 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
 
+#include "emit/manifest_file.hpp"
 #include "idim/input_error.hpp"
 
 namespace idim::generator {
@@ -17,11 +20,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::uintmax_t largest_file = 64U << 20U;
+
+/// Nothing where there is no regular file: a pipe of that name would never end.
 std::optional<std::string> read_file(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) {
+    std::error_code error;
+    if (!fs::is_regular_file(path, error)) {
         return std::nullopt;
     }
+    std::ifstream file(path, std::ios::binary);
     std::ostringstream text;
     text << file.rdbuf();
     return text.str();
@@ -40,10 +47,17 @@ void replace_file(const fs::path& path, const std::string& text) {
     fs::rename(temporary, path);
 }
 
+/// A name a generated file may have: letters, digits and underscores with an ending, nothing that leads elsewhere.
+bool is_plain(const std::string& name) {
+    const auto allowed = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '.' || c == '-'; };
+    return !name.empty() && std::isalnum(static_cast<unsigned char>(name.front())) != 0 &&
+           std::all_of(name.begin(), name.end(), allowed);
+}
+
 /// Files that an earlier run wrote and this one does not.
 std::vector<std::string> left_over(const std::vector<rendered_file>& files, const fs::path& folder) {
     std::vector<std::string> result;
-    const auto text = read_file(folder / "manifest.json");
+    const auto text = read_file(folder / manifest_name);
     const auto manifest = text ? nlohmann::json::parse(*text, nullptr, false) : nlohmann::json();
     if (!manifest.is_object() || !manifest.contains("files") || !manifest["files"].is_array()) {
         return result;
@@ -52,8 +66,7 @@ std::vector<std::string> left_over(const std::vector<rendered_file>& files, cons
         const std::string name = entry.is_string() ? entry.get<std::string>() : "";
         const bool still =
             std::any_of(files.begin(), files.end(), [&](const rendered_file& f) { return f.name == name; });
-        const bool is_plain = !name.empty() && fs::path(name).filename() == fs::path(name);
-        if (is_plain && !still && fs::is_regular_file(folder / name)) {
+        if (is_plain(name) && !still && fs::is_regular_file(folder / name)) {
             result.push_back(name);
         }
     }
@@ -82,18 +95,47 @@ std::vector<std::string> write_model(const std::vector<rendered_file>& files, co
     return changed;
 }
 
-std::vector<std::string> compare_model(const std::vector<rendered_file>& files, const std::string& folder) {
-    std::vector<std::string> differences;
+std::string folder_difference::state() const {
+    return !wanted ? "left over" : present ? "differs" : "missing";
+}
+
+std::vector<folder_difference> compare_model(const std::vector<rendered_file>& files, const std::string& folder) {
+    std::vector<folder_difference> differences;
     for (const rendered_file& file : files) {
         const auto present = read_file(fs::path(folder) / file.name);
         if (present != file.text) {
-            differences.push_back(file.name + (present ? ": differs" : ": missing"));
+            differences.push_back({file.name, present, file.text});
         }
     }
     for (const std::string& name : left_over(files, folder)) {
-        differences.push_back(name + ": left over");
+        differences.push_back({name, read_file(fs::path(folder) / name), std::nullopt});
     }
     return differences;
+}
+
+model_folder read_model(const std::string& folder) {
+    const std::string manifest_path = (fs::path(folder) / manifest_name).string();
+    const auto text = read_file(manifest_path);
+    if (!text) {
+        throw input_error({manifest_path, 0, ""}, "missing, expected a folder that idim generate wrote");
+    }
+    model_folder result{read_manifest(*text, manifest_path), {}};
+    for (const std::string& name : result.content.files) {
+        if (!is_plain(name)) {
+            throw input_error({manifest_path, 0, "files"}, "expected plain file names");
+        }
+        const fs::path path = fs::path(folder) / name;
+        std::error_code error;
+        if (fs::is_regular_file(path, error) && fs::file_size(path, error) > largest_file) {
+            throw input_error({path.string(), 0, ""}, "more than 64 MiB: no generated file");
+        }
+        const auto content = read_file(path);
+        if (!content) {
+            throw input_error({path.string(), 0, ""}, "missing, though manifest.json lists it: regenerate the folder");
+        }
+        result.files.push_back({name, *content});
+    }
+    return result;
 }
 
 }  // namespace idim::generator

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <kainjow/mustache.hpp>
 #include <memory>
@@ -17,6 +19,36 @@ namespace {
 
 using kainjow::mustache::data;
 using kainjow::mustache::mustache;
+
+constexpr const char* suffix = ".mustache";
+
+/// "function" and ".hpp" of "function.hpp".
+std::pair<std::string, std::string> split(const std::string& name) {
+    const std::size_t dot = std::min(name.find('.'), name.size());
+    return {name.substr(0, dot), name.substr(dot)};
+}
+
+bool is_partial(const std::string& name) {
+    return split(name).second.empty();
+}
+
+bool is_file(const std::string& name) {
+    return !is_partial(name);
+}
+
+/// Templates of a folder without .mustache, in alphabetical order.
+std::vector<std::string> template_names(const std::string& folder, bool (*wanted)(const std::string&)) {
+    std::error_code error;
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+        const std::filesystem::path& path = entry.path();
+        if (path.extension() == suffix && wanted(path.stem().string())) {
+            names.push_back(path.stem().string());
+        }
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
 
 std::string read_template(const std::string& folder, const std::string& name) {
     const std::string path = folder + "/" + name;
@@ -73,6 +105,9 @@ class context_data {
             data_.set(key, data{kainjow::mustache::lambda2{layout}});
         }
     }
+    /// The keys of an entry, for a list that may be empty.
+    void know(const context_data& entry) { keys_.insert(entry.keys_.begin(), entry.keys_.end()); }
+    void set_flag(const std::string& key, bool value) { keys_.insert(key), data_.set(key, value); }
     /// A partial stands on a line of its own, so its last line break is the template's.
     void set_partial(const std::string& key, std::string text) {
         keys_.insert(key);
@@ -97,12 +132,19 @@ void check_keys(const std::string& text, const context_data& context, const std:
     }
 }
 
-std::string render(const std::string& folder, const std::string& name, const context_data& context) {
-    const std::string text = read_template(folder, name);
-    check_keys(text, context, name);
-    mustache tmpl{text};
+/// The library prints the line of a section's tag, empty, where the section is not printed. It leaves the line out
+/// where some section on it is, so each tag gets an empty one in front.
+std::string without_empty_lines(const std::string& text) {
+    static const std::regex opening("\\{\\{[#^]");
+    return std::regex_replace(text, opening, "{{#always}}{{/always}}$&");
+}
+
+std::string filled(const std::string& folder, const std::string& name, const context_data& context) {
+    const std::string text = read_template(folder, name + suffix);
+    check_keys(text, context, name + suffix);
+    mustache tmpl{without_empty_lines(text)};
     if (!tmpl.is_valid()) {
-        throw std::runtime_error(fmt::format("template {}: {}", name, tmpl.error_message()));
+        throw std::runtime_error(fmt::format("template {}{}: {}", name, suffix, tmpl.error_message()));
     }
     tmpl.set_custom_escape([](const std::string& s) { return s; });
     return tmpl.render(context.values());
@@ -132,80 +174,125 @@ std::vector<context_data> joints(const std::vector<joint_context>& list) {
     return result;
 }
 
-context_data common(const template_context& context, const std::string& folder) {
-    context_data result;
-    result.set_partial("preamble", read_template(folder, "preamble.mustache"));
-    result.set("robot", context.robot);
-    result.set("version", context.version);
-    result.set("robot_file", context.robot_file);
-    result.set("input_hash", context.input_hash);
-    return result;
-}
-
 std::string operation_text(const operation_count& count) {
     std::string text = fmt::format("{} mul, {} add, {} div", count.mul, count.add, count.div);
     return count.functions == 0 ? text : text + fmt::format(", {} functions (sin, cos, sign ...)", count.functions);
 }
 
-rendered_file function_file(const template_context& context, const function_context& function,
-                            const std::string& folder) {
-    context_data values = common(context, folder);
+std::vector<context_data> routines(const std::vector<routine_context>& list) {
+    std::vector<context_data> result;
+    for (const routine_context& routine : list) {
+        context_data& entry = result.emplace_back();
+        entry.set("summary", routine.summary);
+        entry.set_lines("arguments", routine.meanings);
+        entry.set("signature", routine.signature);
+        entry.set_lines("prologue", routine.prologue);
+        entry.set_lines("statements", routine.statements);
+    }
+    return result;
+}
+
+void set_function(context_data& values, const function_context& function) {
     values.set("name", function.name);
     values.set("summary", function.summary);
+    values.set_lines("arguments", function.meanings);
     values.set("operations", operation_text(function.operations));
-    std::vector<context_data> meanings;
-    std::vector<std::string> declarations;
-    for (const argument_context& argument : function.arguments) {
-        meanings.emplace_back().set("meaning", argument.meaning);
-        declarations.push_back((argument.used ? "" : "[[maybe_unused]] ") + argument.declaration);
-    }
-    values.set("arguments", meanings);
-    const std::string indent = ",\n" + std::string(function.name.size() + 6, ' ');
-    values.set("argument_list", fmt::format("{}", fmt::join(declarations, indent)));
-    values.set_lines("statements", function.statements);
-    std::vector<std::string> usings;
-    for (const std::string& name : function.functions) {
-        usings.push_back("std::" + name);
-    }
-    using lines = std::vector<std::string>;
-    values.set_lines("using_functions", usings.empty() ? lines{} : lines{fmt::format("{}", fmt::join(usings, ", "))});
-    return {function.name + ".hpp", render(folder, "function.hpp.mustache", values)};
 }
 
-rendered_file metadata_file(const template_context& context, const std::string& folder) {
-    context_data values = common(context, folder);
-    values.set_lines("constants", context.constants);
-    values.set_lines("effects", context.effects);
-    values.set("dof", std::to_string(context.joints.size()));
-    values.set("n_base", std::to_string(context.base_parameters.size()));
-    values.set("n_standard", std::to_string(context.standard_parameters.size()));
-    values.set("joints", joints(context.joints));
-    values.set("base_parameters", parameters(context.base_parameters));
-    values.set("standard_parameters", parameters(context.standard_parameters));
-    return {"model.hpp", render(folder, "model.hpp.mustache", values)};
+void set_variant(context_data& values, const variant_context& variant) {
+    values.set("scalar", variant.scalar);
+    values.set_flag("calls_sign", variant.calls_sign);
+    values.set("routines", routines(variant.routines));
+    values.know(routines({routine_context{}}).front());
 }
 
-rendered_file interface_file(const template_context& context, const std::string& folder) {
-    context_data values = common(context, folder);
-    values.set("joints", joints(context.joints));
-    values.set("time_argument", context.uses_time ? "double t" : "double");
-    values.set("temp_argument", context.uses_temperature ? "const double* temp" : "const double*");
-    values.set("signals", std::string(context.uses_time ? "t, " : "") + (context.uses_temperature ? "temp, " : ""));
-    values.set("needs_time", context.uses_time ? "1" : "0");
-    values.set("needs_temperature", context.uses_temperature ? "1" : "0");
-    return {"model_interface.cpp", render(folder, "model_interface.cpp.mustache", values)};
+bool has_routines(const function_context& function) {
+    return !function.variants.empty() && !function.variants.front().routines.empty();
+}
+
+std::vector<context_data> functions(const std::vector<function_context>& list) {
+    std::vector<context_data> result;
+    for (const function_context& function : list) {
+        if (!has_routines(function)) {
+            continue;
+        }
+        context_data& entry = result.emplace_back();
+        set_function(entry, function);
+        std::vector<context_data> variants;
+        for (const variant_context& variant : function.variants) {
+            set_variant(variants.emplace_back(), variant);
+        }
+        entry.set("variants", variants);
+    }
+    return result;
+}
+
+std::string upper_case(std::string text) {
+    for (char& letter : text) {
+        letter = letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter;
+    }
+    return text;
+}
+
+/// What every template may use.
+context_data robot_values(const template_context& context, const std::string& folder) {
+    context_data result;
+    result.set_flag("always", true);
+    for (const std::string& name : template_names(folder, is_partial)) {
+        result.set_partial(name, read_template(folder, name + suffix));
+    }
+    result.set("robot", context.robot);
+    result.set("robot_upper", upper_case(context.robot));
+    result.set("version", context.version);
+    result.set("robot_file", context.robot_file);
+    result.set("input_hash", context.input_hash);
+    result.set_lines("constants", context.constants);
+    result.set_lines("effects", context.effects);
+    result.set("dof", std::to_string(context.joints.size()));
+    result.set("n_base", std::to_string(context.base_parameters.size()));
+    result.set("n_standard", std::to_string(context.standard_parameters.size()));
+    result.set("n_sines", std::to_string(context.sines));
+    result.set("joints", joints(context.joints));
+    result.set("base_parameters", parameters(context.base_parameters));
+    result.set("standard_parameters", parameters(context.standard_parameters));
+    result.set("time_argument", context.uses_time ? "double t" : "double");
+    result.set("temp_argument", context.uses_temperature ? "const double* temp" : "const double*");
+    result.set("signals", std::string(context.uses_time ? "t, " : "") + (context.uses_temperature ? "temp, " : ""));
+    result.set("packed_signals",
+               std::string(context.uses_time ? "at.t, " : "") + (context.uses_temperature ? "at.temp, " : ""));
+    result.set_flag("uses_time", context.uses_time);
+    result.set_flag("uses_temperature", context.uses_temperature);
+    result.set("needs_time", context.uses_time ? "1" : "0");
+    result.set("needs_temperature", context.uses_temperature ? "1" : "0");
+    return result;
 }
 
 }  // namespace
 
-std::vector<rendered_file> render_cpp(const template_context& context, const std::string& folder) {
-    std::vector<rendered_file> files;
-    for (const function_context& function : context.functions) {
-        files.push_back(function_file(context, function, folder));
+std::vector<rendered_file> render(const template_context& context, const std::string& folder) {
+    const std::vector<std::string> names = template_names(folder, is_file);
+    if (names.empty()) {
+        throw std::runtime_error("no templates in " + folder);
     }
-    files.push_back({"functions.hpp", render(folder, "functions.hpp.mustache", common(context, folder))});
-    files.push_back(metadata_file(context, folder));
-    files.push_back(interface_file(context, folder));
+    std::vector<rendered_file> files;
+    const context_data of_robot = robot_values(context, folder);
+    for (const std::string& name : names) {
+        const auto [stem, extension] = split(name);
+        if (stem != "function") {
+            context_data values = of_robot;
+            values.set("functions", functions(context.functions));
+            files.push_back({(stem == "robot" ? context.robot : stem) + extension, filled(folder, name, values)});
+            continue;
+        }
+        for (const function_context& function : context.functions) {
+            for (const variant_context& variant : function.variants) {
+                context_data values = of_robot;
+                set_function(values, function);
+                set_variant(values, variant);
+                files.push_back({function.name + variant.suffix + extension, filled(folder, name, values)});
+            }
+        }
+    }
     return files;
 }
 

@@ -23,6 +23,7 @@ enum class symbol_role {
     velocity,
     acceleration,
     torque,
+    sine,
     intermediate,
 };
 

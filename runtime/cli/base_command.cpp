@@ -65,11 +65,12 @@ void add_base_command(CLI::App& app, action& chosen) {
     const auto options = std::make_shared<base_options>();
     CLI::App* command =
         app.add_subcommand("base", "base parameters and how each regroups the standard ones, in symbols");
-    command->add_option("robot", options->robot, "robot description (.yaml)")->required();
+    command->add_option("robot", options->robot, "robot description (.yaml, .urdf)")->required();
     add_json_option(*command, options->json_file);
     command->callback([options, &chosen] {
         chosen = [options]() -> int {
             const generator::base_report base = generator::find_base(options->robot, templates_folder());
+            print_notes(options->robot, base.notes);
             write_json(options->json_file, to_json(base));
             if (prints_text(options->json_file)) {
                 print(base);

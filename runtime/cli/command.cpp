@@ -15,6 +15,12 @@ void add_json_option(CLI::App& command, std::string& file) {
     command.add_option("--json", file, "write the result as JSON to this file, - for standard output");
 }
 
+void print_notes(const std::string& file, const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) {
+        fmt::print(stderr, "idim: {}: note: {}\n", file, note);
+    }
+}
+
 bool prints_text(const std::string& json_file) {
     return json_file != "-";
 }
@@ -25,21 +31,27 @@ void write_json(const std::string& file, const json& content) {
     }
     json ordered = {{"idim_version", IDIM_VERSION}};
     ordered.update(content);
-    const std::string text = ordered.dump(2) + "\n";
+    // A file that is quoted may hold bytes that are no UTF-8; JSON may not.
+    const std::string text = ordered.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
     if (file == "-") {
         fmt::print("{}", text);
         return;
     }
-    const std::string temporary = file + ".tmp";
-    std::ofstream out(temporary, std::ios::binary);
+    // A device or pipe is written into: a file renamed over /dev/null would take its place.
+    std::error_code error;
+    const bool is_special = std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error);
+    const std::string written = is_special ? file : file + ".tmp";
+    std::ofstream out(written, std::ios::binary);
     out << text;
     out.close();
-    std::error_code error;
-    if (out) {
-        std::filesystem::rename(temporary, file, error);
+    error.clear();
+    if (out && !is_special) {
+        std::filesystem::rename(written, file, error);
     }
     if (!out || error) {
-        std::filesystem::remove(temporary, error);
+        if (!is_special) {
+            std::filesystem::remove(written, error);
+        }
         throw input_error({file, 0, "--json"}, "cannot be written");
     }
 }

@@ -4,6 +4,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace idim::cli {
 
@@ -18,6 +19,7 @@ using action = std::function<int()>;
 /// Adds one command to the application; `chosen` receives its action when the user calls it.
 void add_base_command(CLI::App& app, action& chosen);
 void add_generate_command(CLI::App& app, action& chosen);
+void add_diff_command(CLI::App& app, action& chosen);
 void add_identify_command(CLI::App& app, action& chosen);
 void add_validate_command(CLI::App& app, action& chosen);
 void add_simulate_command(CLI::App& app, action& chosen);
@@ -25,9 +27,13 @@ void add_simulate_command(CLI::App& app, action& chosen);
 /// Adds --json FILE (`-` for standard output).
 void add_json_option(CLI::App& command, std::string& file);
 
-/// Writes `content` to the file of --json, by renaming a temporary; nothing where `file` is empty. "idim_version" is
+/// Writes `content` to the file of --json, by renaming a temporary (into a device or pipe); nothing where `file` is
+/// empty. "idim_version" is
 /// put in front. Throws input_error where it cannot be written.
 void write_json(const std::string& file, const json& content);
+
+/// Writes what was noted while reading a file to standard error, one line each.
+void print_notes(const std::string& file, const std::vector<std::string>& notes);
 
 /// True where the text for people should be printed: not when the JSON goes to standard output.
 bool prints_text(const std::string& json_file);

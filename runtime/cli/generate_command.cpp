@@ -3,6 +3,7 @@
 #include "command.hpp"
 #include "emit/model_folder.hpp"
 #include "generator.hpp"
+#include "idim/unified_diff.hpp"
 #include "resources.hpp"
 
 namespace idim::cli {
@@ -12,6 +13,7 @@ namespace {
 struct generate_options {
     std::string robot;
     std::string folder;
+    generator::generation_options wanted;
     bool check = false;
     std::string json_file;
 };
@@ -33,11 +35,8 @@ json to_json(const generator::generated_model& model) {
     }
     json operations = to_json(model.operations);
     operations["rigid"] = to_json(model.rigid_operations);
-    return {{"robot", model.robot},
-            {"input_hash", model.input_hash},
-            {"files", files},
-            {"seconds", model.seconds},
-            {"operations", operations}};
+    return {{"robot", model.robot}, {"target", model.target},   {"input_hash", model.input_hash},
+            {"files", files},       {"seconds", model.seconds}, {"operations", operations}};
 }
 
 void print_operations(const char* name, const generator::operation_count& all,
@@ -56,15 +55,32 @@ void print(const generator::generated_model& model) {
 }
 
 int check_folder(const generator::generated_model& model, const generate_options& options) {
-    const std::vector<std::string> differences = generator::compare_model(model.files, options.folder);
-    for (const std::string& line : differences) {
-        fmt::print("{}/{}\n", options.folder, line);
+    const auto differences = generator::compare_model(model.files, options.folder);
+    std::vector<file_change> changes;
+    json files = json::array();
+    for (const generator::folder_difference& difference : differences) {
+        changes.push_back({difference.name, difference.present, difference.wanted});
+        files.push_back({{"file", difference.name}, {"state", difference.state()}});
+    }
+    const std::string diff = unified_diff(changes);
+    write_json(options.json_file, {{"robot", model.robot},
+                                   {"target", model.target},
+                                   {"folder", options.folder},
+                                   {"current", differences.empty()},
+                                   {"differences", files},
+                                   {"diff", diff}});
+    if (prints_text(options.json_file)) {
+        for (const generator::folder_difference& difference : differences) {
+            fmt::print("{}/{}: {}\n", options.folder, difference.name, difference.state());
+        }
+        fmt::print("{}", diff);
     }
     return differences.empty() ? exit_done : exit_check_said_no;
 }
 
 int run(const generate_options& options) {
-    const generator::generated_model model = generator::generate(options.robot, templates_folder());
+    const generator::generated_model model = generator::generate(options.robot, templates_folder(), options.wanted);
+    print_notes(options.robot, model.base.notes);
     if (options.check) {
         return check_folder(model, options);
     }
@@ -81,10 +97,14 @@ int run(const generate_options& options) {
 
 void add_generate_command(CLI::App& app, action& chosen) {
     const auto options = std::make_shared<generate_options>();
-    CLI::App* command = app.add_subcommand("generate", "C++ code of the robot's models");
-    command->add_option("robot", options->robot, "robot description (.yaml)")->required();
+    CLI::App* command = app.add_subcommand("generate", "code of the robot's models");
+    command->add_option("robot", options->robot, "robot description (.yaml, .urdf)")->required();
     command->add_option("-o,--output", options->folder, "folder for the code")->required();
-    command->add_flag("--check", options->check, "write nothing; exit 1 where the folder is not what would be written");
+    command->add_option("--target", options->wanted.target, "language of the code")
+        ->check(CLI::IsMember(generator::target_names()))
+        ->capture_default_str();
+    command->add_flag("--check", options->check,
+                      "write nothing; exit 1 and a diff where the folder is not what would be written");
     add_json_option(*command, options->json_file);
     command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }

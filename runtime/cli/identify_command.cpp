@@ -208,7 +208,7 @@ int run(const identify_options& options) {
 void add_identify_command(CLI::App& app, action& chosen) {
     const auto options = std::make_shared<identify_options>();
     CLI::App* command = app.add_subcommand("identify", "base parameters from measured motion, with deviations");
-    command->add_option("robot", options->robot, "robot description (.yaml)")->required();
+    command->add_option("robot", options->robot, "robot description (.yaml, .urdf)")->required();
     command->add_option("logs", options->logs, "logs (.csv, .csv.gz)")->required();
     command->add_option("--method", options->method, "ols, wls (default) or irls")
         ->check(CLI::IsMember({"ols", "wls", "irls"}));

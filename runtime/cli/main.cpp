@@ -43,6 +43,7 @@ int main(int argc, char** argv) {
     action chosen;
     add_base_command(app, chosen);
     add_generate_command(app, chosen);
+    add_diff_command(app, chosen);
     add_simulate_command(app, chosen);
     add_identify_command(app, chosen);
     add_validate_command(app, chosen);

@@ -22,14 +22,19 @@ std::string read_text(const std::string& path) {
 
 }  // namespace
 
-loaded_robot load_robot(const std::string& robot_file) {
-    generator::generated_model generated = generator::generate(robot_file, templates_folder());
+compiled_model compile_files(const std::vector<generator::rendered_file>& files, const std::string& input_hash) {
     std::vector<model_source> sources;
-    for (const generator::rendered_file& file : generated.files) {
+    for (const generator::rendered_file& file : files) {
         sources.push_back({file.name, file.text});
     }
     sources.push_back({"idim/model_interface.h", read_text(include_folder() + "/idim/model_interface.h")});
-    compiled_model compiled = compile_model(sources, generated.input_hash);
+    return compile_model(sources, input_hash);
+}
+
+loaded_robot load_robot(const std::string& robot_file) {
+    generator::generated_model generated = generator::generate(robot_file, templates_folder());
+    print_notes(robot_file, generated.base.notes);
+    compiled_model compiled = compile_files(generated.files, generated.input_hash);
     return {std::move(generated), std::move(compiled)};
 }
 

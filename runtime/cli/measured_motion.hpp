@@ -20,6 +20,9 @@ struct loaded_robot {
     const idim_model_interface& model() const { return compiled.interface(); }
 };
 
+/// Compiles the files of a generated model (or takes them from the cache) and loads them.
+compiled_model compile_files(const std::vector<generator::rendered_file>& files, const std::string& input_hash);
+
 /// Generates, compiles (or takes from the cache) and loads the model of a robot description.
 loaded_robot load_robot(const std::string& robot_file);
 

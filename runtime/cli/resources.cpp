@@ -2,7 +2,6 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <vector>
 
 #include "idim/input_error.hpp"
 
@@ -12,34 +11,32 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string first_with(const std::vector<fs::path>& folders, const char* probe, const char* what) {
-    for (const fs::path& folder : folders) {
-        if (!folder.empty() && fs::exists(folder / probe)) {
-            return folder.string();
-        }
-    }
-    throw input_error({"", 0, ""},
-                      std::string("cannot find ") + what + ", looked for " + probe + " in " + folders.back().string());
-}
-
-fs::path installed_prefix() {
+/// What the command's own folder, bin/, stands in: links are followed, so a link to the command finds the same.
+fs::path prefix() {
     std::error_code error;
     const fs::path command = fs::read_symlink("/proc/self/exe", error);
     return error ? fs::path() : command.parent_path().parent_path();
+}
+
+std::string folder_with(const fs::path& folder, const char* probe, const char* what) {
+    if (!fs::exists(folder / probe)) {
+        throw input_error({"", 0, ""},
+                          std::string("cannot find ") + what + ", looked for " + probe + " in " + folder.string());
+    }
+    return folder.string();
 }
 
 }  // namespace
 
 std::string templates_folder() {
     const char* given = std::getenv("IDIM_TEMPLATES");
-    return first_with({given == nullptr ? "" : given, installed_prefix() / "share/idim/templates",
-                       fs::path(IDIM_SOURCE_DIR) / "templates"},
-                      "cpp/function.hpp.mustache", "the templates");
+    const bool is_given = given != nullptr && *given != '\0';
+    return folder_with(is_given ? fs::path(given) : prefix() / "share/idim/templates", "cpp/function.hpp.mustache",
+                       is_given ? "the templates that IDIM_TEMPLATES names" : "the templates");
 }
 
 std::string include_folder() {
-    return first_with({installed_prefix() / "include", fs::path(IDIM_SOURCE_DIR) / "runtime/include"},
-                      "idim/model_interface.h", "the runtime's headers");
+    return folder_with(prefix() / "include", "idim/model_interface.h", "the runtime's headers");
 }
 
 }  // namespace idim::cli

@@ -124,7 +124,7 @@ int run(const simulate_options& options) {
 void add_simulate_command(CLI::App& app, action& chosen) {
     const auto options = std::make_shared<simulate_options>();
     CLI::App* command = app.add_subcommand("simulate", "closed-loop simulation with noise");
-    command->add_option("robot", options->robot, "robot description (.yaml) with a control law")->required();
+    command->add_option("robot", options->robot, "robot description (.yaml, .urdf) with a control law")->required();
     command
         ->add_option("--parameters", options->parameters,
                      "base parameters: result of identify, or a map of names to values")

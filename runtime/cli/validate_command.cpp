@@ -60,7 +60,7 @@ int run(const validate_options& options) {
 void add_validate_command(CLI::App& app, action& chosen) {
     const auto options = std::make_shared<validate_options>();
     CLI::App* command = app.add_subcommand("validate", "errors of an identified model on other data");
-    command->add_option("robot", options->robot, "robot description (.yaml)")->required();
+    command->add_option("robot", options->robot, "robot description (.yaml, .urdf)")->required();
     command->add_option("result", options->result, "result of identify --json, or a map of parameter names to values")
         ->required();
     command->add_option("logs", options->logs, "logs (.csv, .csv.gz)")->required();

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <utility>
 
 #include "idim/input_error.hpp"
@@ -90,8 +91,19 @@ bool log_line_reader::next(std::string_view& line) {
     }
 }
 
-log_file_writer::log_file_writer(std::string file)
-    : file_(std::move(file)), temporary_(file_ + ".tmp" + std::to_string(getpid())) {
+namespace {
+
+/// Where a file is written until it is whole; of a device or pipe itself, as a file renamed over it would take its
+/// place.
+std::string temporary_name(const std::string& file) {
+    std::error_code error;
+    const bool is_special = std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error);
+    return is_special ? file : file + ".tmp" + std::to_string(getpid());
+}
+
+}  // namespace
+
+log_file_writer::log_file_writer(std::string file) : file_(std::move(file)), temporary_(temporary_name(file_)) {
     errno = 0;
     stream_ = gzopen(temporary_.c_str(), is_gzip_name(file_) ? "wb" : "wbT");  // T: no compression, no gzip header
     if (stream_ == nullptr) {
@@ -102,12 +114,18 @@ log_file_writer::log_file_writer(std::string file)
 log_file_writer::~log_file_writer() {
     if (stream_ != nullptr) {
         gzclose_w(stream_);
+        remove_temporary();
+    }
+}
+
+void log_file_writer::remove_temporary() {
+    if (temporary_ != file_) {
         std::remove(temporary_.c_str());
     }
 }
 
 void log_file_writer::fail(const std::string& why) {
-    std::remove(temporary_.c_str());
+    remove_temporary();
     throw input_error({file_, 0, ""}, "cannot be written: " + why);
 }
 
@@ -125,7 +143,7 @@ void log_file_writer::commit() {
     if (gzclose_w(std::exchange(stream_, nullptr)) != Z_OK) {
         fail(std::strerror(errno));
     }
-    if (std::rename(temporary_.c_str(), file_.c_str()) != 0) {
+    if (temporary_ != file_ && std::rename(temporary_.c_str(), file_.c_str()) != 0) {
         fail(std::strerror(errno));
     }
 }

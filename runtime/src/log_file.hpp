@@ -37,7 +37,8 @@ class log_line_reader {
 };
 
 /// Writes a file, gzip if its name ends in `.gz`, under a temporary name beside it; commit() renames it. Without
-/// commit() the file of that name stays as it was. Throws input_error if it cannot be written.
+/// commit() the file of that name stays as it was. A device or pipe is written into. Throws input_error if it cannot be
+/// written.
 class log_file_writer {
   public:
     explicit log_file_writer(std::string file);
@@ -50,9 +51,10 @@ class log_file_writer {
 
   private:
     [[noreturn]] void fail(const std::string& why);
+    void remove_temporary();
 
     std::string file_;
-    std::string temporary_;
+    std::string temporary_;  ///< file_ itself where that is a device or pipe
     gzFile stream_ = nullptr;
 };
 

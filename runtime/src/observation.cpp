@@ -22,8 +22,6 @@ namespace {
 // TX40 10.7 and 10.9 %. To be checked on robots that had no part in this.
 constexpr double rest_share = 0.2;
 
-using row_major_matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
 void check_log(const idim_model_interface& model, const filtered_samples& samples, const filter_choice& choice) {
     if (samples.q.cols() != model.dof) {
         throw input_error({samples.file, 0, ""}, fmt::format("has {} joints, the model of {} has {}", samples.q.cols(),
@@ -44,35 +42,69 @@ void check_log(const idim_model_interface& model, const filtered_samples& sample
     }
 }
 
-void check_finite(const idim_model_interface& model, const Eigen::RowVectorXd& W, const std::string& file, double t) {
-    for (Eigen::Index k = 0; k < W.size(); ++k) {
-        if (!std::isfinite(W[k])) {
-            throw data_error(fmt::format("{}: the regressor of parameter {} at joint {} is {} at t = {:.6g} s", file,
-                                         model.parameter_names[k % model.n_base], model.joint_names[k / model.n_base],
-                                         W[k], t));
+/// Names the first element of a block of regressors that is no number; column = joint * b + parameter.
+void check_finite(const idim_model_interface& model, const Eigen::MatrixXd& W, const filtered_samples& samples,
+                  Eigen::Index first) {
+    if (W.allFinite()) {
+        return;
+    }
+    for (Eigen::Index k = 0; k < W.rows(); ++k) {
+        for (Eigen::Index i = 0; i < W.cols(); ++i) {
+            if (!std::isfinite(W(k, i))) {
+                throw data_error(fmt::format("{}: the regressor of parameter {} at joint {} is {} at t = {:.6g} s",
+                                             samples.file, model.parameter_names[i % model.n_base],
+                                             model.joint_names[i / model.n_base], W(k, i), samples.t[first + k]));
+            }
         }
     }
 }
 
+/// Of a model without a batch form.
+void evaluate_one_by_one(const idim_model_interface& model, const idim_samples& samples, Eigen::MatrixXd& W) {
+    using strided = Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<>>;
+    Eigen::VectorXd row = Eigen::VectorXd::Zero(W.cols());
+    for (Eigen::Index k = 0; k < W.rows(); ++k) {
+        const auto at = [&](const double* signal) -> Eigen::VectorXd {
+            return signal == nullptr ? Eigen::VectorXd::Zero(model.dof)
+                                     : Eigen::VectorXd(strided(signal + k, model.dof,
+                                                               Eigen::InnerStride<>(static_cast<int>(samples.stride))));
+        };
+        model.regressor(at(samples.q).data(), at(samples.qd).data(), at(samples.qdd).data(), samples.t[k],
+                        at(samples.temp).data(), row.data());
+        W.row(k) = row;
+    }
+}
+
+/// Regressors of samples first..first+count-1: count x (n b).
+Eigen::MatrixXd evaluate_block(const idim_model_interface& model, const filtered_samples& samples, Eigen::Index first,
+                               Eigen::Index count) {
+    const double* const temp = samples.temp.size() > 0 ? samples.temp.data() + first : nullptr;
+    const idim_samples block = {static_cast<size_t>(count),
+                                static_cast<size_t>(samples.samples()),
+                                samples.q.data() + first,
+                                samples.qd.data() + first,
+                                samples.qdd.data() + first,
+                                samples.t.data() + first,
+                                temp};
+    Eigen::MatrixXd W(count, Eigen::Index{model.dof} * model.n_base);
+    if (model.regressor_batch != nullptr) {
+        model.regressor_batch(&block, W.data(), static_cast<size_t>(count));
+    } else {
+        evaluate_one_by_one(model, block, W);
+    }
+    check_finite(model, W, samples, first);
+    return W;
+}
+
 /// Regressor rows of joints first..first+count-1 at every sample: samples x (count b).
-row_major_matrix sample_regressor(const idim_model_interface& model, const filtered_samples& samples, int first,
-                                  int count) {
-    const row_major_matrix q = samples.q;
-    const row_major_matrix qd = samples.qd;
-    const row_major_matrix qdd = samples.qdd;
-    const row_major_matrix temp = samples.temp.size() > 0
-                                      ? row_major_matrix(samples.temp)
-                                      : row_major_matrix(row_major_matrix::Zero(samples.samples(), model.dof));
+Eigen::MatrixXd sample_regressor(const idim_model_interface& model, const filtered_samples& samples, int first,
+                                 int count) {
+    constexpr Eigen::Index samples_at_once = 64;  // whose regressors stay in the cache
     const Eigen::Index b = model.n_base;
-    row_major_matrix sampled(samples.samples(), count * b);
-    Eigen::RowVectorXd W(model.dof * b);
-    for (Eigen::Index k = 0; k < samples.samples(); ++k) {
-        model.regressor(q.row(k).data(), qd.row(k).data(), qdd.row(k).data(), samples.t[k], temp.row(k).data(),
-                        W.data());
-        if (!W.allFinite()) {
-            check_finite(model, W, samples.file, samples.t[k]);
-        }
-        sampled.row(k) = W.segment(first * b, count * b);
+    Eigen::MatrixXd sampled(samples.samples(), count * b);
+    for (Eigen::Index k = 0; k < samples.samples(); k += samples_at_once) {
+        const Eigen::Index size = std::min(samples_at_once, samples.samples() - k);
+        sampled.middleRows(k, size) = evaluate_block(model, samples, k, size).middleCols(first * b, count * b);
     }
     return sampled;
 }

@@ -9,11 +9,13 @@ namespace idim {
 /// A C++ compiler of this machine that understands the options of g++ and clang++.
 struct system_compiler {
     std::vector<std::string> command;  ///< absolute path of the program and its own arguments, then the flags
-    std::string version;               ///< what it answers to --version
+    /// What it answers to --version, and the macros that tell the instruction set it compiles for.
+    std::string version;
 };
 
 /// The compiler of that name, else the one in $CXX, else the first of c++, g++, clang++ on the PATH. A name that is no
 /// program as a whole is split at blanks into a program and its arguments, such as "ccache g++".
+/// Compiles for this machine's processor where the compiler can.
 /// Throws std::runtime_error if there is none or it does not answer to --version.
 system_compiler find_compiler(const std::string& name);
 

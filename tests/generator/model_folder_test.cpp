@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "emit/manifest_file.hpp"
 #include "idim/input_error.hpp"
 #include "support/robot_files.hpp"
 
@@ -94,10 +95,88 @@ TEST_F(ModelFolder, ComparisonNamesWhatDiffersIsMissingOrLeftOver) {
     EXPECT_TRUE(compare_model(model("a\n", true), path()).empty());
     folder_.write("deep/model/a.hpp", "edited\n");
     std::filesystem::remove(path() + "/b.hpp");
-    const lines found = compare_model(model("a\n", false), path());
+    lines found;
+    for (const folder_difference& difference : compare_model(model("a\n", false), path())) {
+        found.push_back(difference.name + ": " + difference.state());
+    }
     EXPECT_EQ(found, (lines{"a.hpp: differs", "b.hpp: missing", "manifest.json: differs", "extra.hpp: left over"}));
     EXPECT_EQ(test::read_text(path() + "/a.hpp"), "edited\n");
     EXPECT_FALSE(exists("b.hpp"));
+}
+
+TEST_F(ModelFolder, ComparisonHasBothTexts) {
+    write_model(model("a\n", true), path());
+    folder_.write("deep/model/a.hpp", "edited\n");
+    std::filesystem::remove(path() + "/b.hpp");
+    const std::vector<folder_difference> found = compare_model(model("a\n", false), path());
+    ASSERT_EQ(found.size(), 4u);
+    EXPECT_EQ(found[0].present, "edited\n");
+    EXPECT_EQ(found[0].wanted, "a\n");
+    EXPECT_EQ(found[1].present, std::nullopt);
+    EXPECT_EQ(found[1].wanted, "b\n");
+    EXPECT_EQ(found[3].present, "extra\n");
+    EXPECT_EQ(found[3].wanted, std::nullopt);
+}
+
+TEST_F(ModelFolder, APipeInThePlaceOfAFileIsAMissingFile) {
+    write_model(model("a\n", false), path());
+    std::filesystem::remove(path() + "/b.hpp");
+    ASSERT_EQ(mkfifo((path() + "/b.hpp").c_str(), 0600), 0);
+    const std::vector<folder_difference> found = compare_model(model("a\n", false), path());
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].state(), "missing");
+}
+
+namespace {
+
+/// A manifest of this version that lists the named files.
+std::string listing(const std::vector<std::string>& names) {
+    manifest content;
+    content.files = names;
+    return to_json_text(content);
+}
+
+std::string refusal(const std::string& folder) {
+    try {
+        read_model(folder);
+    } catch (const input_error& error) {
+        return error.what();
+    }
+    return "read";
+}
+
+}  // namespace
+
+TEST_F(ModelFolder, IsReadBackAsTheManifestListsIt) {
+    write_model({{"b.hpp", "b\n"}, {"a.cpp", "a\n"}, {"manifest.json", listing({"b.hpp", "a.cpp"})}}, path());
+    folder_.write("deep/model/notes.txt", "mine\n");
+    const model_folder read = read_model(path());
+    ASSERT_EQ(read.files.size(), 2u);
+    EXPECT_EQ(read.files[0].name, "b.hpp");
+    EXPECT_EQ(read.files[0].text, "b\n");
+    EXPECT_EQ(read.files[1].text, "a\n");
+}
+
+TEST_F(ModelFolder, FoldersThatAreNoneOfOursAreRefused) {
+    std::filesystem::create_directories(path());
+    EXPECT_EQ(refusal(path()), path() + "/manifest.json: missing, expected a folder that idim generate wrote");
+    folder_.write("deep/model/manifest.json", listing({"a.hpp"}));
+    EXPECT_EQ(refusal(path()), path() + "/a.hpp: missing, though manifest.json lists it: regenerate the folder");
+    ASSERT_EQ(mkfifo((path() + "/a.hpp").c_str(), 0600), 0);
+    EXPECT_EQ(refusal(path()), path() + "/a.hpp: missing, though manifest.json lists it: regenerate the folder");
+    const std::string outside = folder_.write("deep/precious.txt", "keep\n");
+    for (const std::string& name : {std::string("../precious.txt"), outside, std::string(".."), std::string(""),
+                                    std::string("-rf"), std::string("a b.hpp")}) {
+        folder_.write("deep/model/manifest.json", listing({name}));
+        EXPECT_EQ(refusal(path()), path() + "/manifest.json: files: expected plain file names") << name;
+    }
+}
+
+TEST_F(ModelFolder, AFileTooLargeToBeGeneratedIsRefusedUnread) {
+    folder_.write("deep/model/manifest.json", listing({"a.hpp"}));
+    folder_.write("deep/model/a.hpp", "");
+    std::filesystem::resize_file(path() + "/a.hpp", (64ULL << 20U) + 1);  // sparse
+    EXPECT_EQ(refusal(path()), path() + "/a.hpp: more than 64 MiB: no generated file");
 }
 
 TEST_F(ModelFolder, AFileInItsPlaceIsBadInput) {

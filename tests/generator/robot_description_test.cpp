@@ -356,21 +356,6 @@ TEST(RobotDescription, ParametersAreNumbers) {
     EXPECT_EQ(error_of(two_joints("parameters: {ZZ1: +1.5e-2, M1: -.5}\n")), "no error");
 }
 
-TEST(RobotDescription, UrdfIsRefusedUntilItIsBuiltIn) {
-    EXPECT_EQ(error_of("name: arm\nurdf: arm.urdf\n"),
-              "robot.yaml:2: urdf: urdf input is not built in yet, give joints");
-    EXPECT_THROW(
-        {
-            try {
-                read_robot("arm.urdf");
-            } catch (const input_error& error) {
-                EXPECT_STREQ(error.what(), "arm.urdf: urdf input is not built in yet, give joints");
-                throw;
-            }
-        },
-        input_error);
-}
-
 TEST(RobotDescription, FilesThatAreNoDescriptionAreRefused) {
     EXPECT_EQ(error_of(""), "robot.yaml: is empty");
     EXPECT_EQ(error_of("# only a comment\n"), "robot.yaml: is empty");

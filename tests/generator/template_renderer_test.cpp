@@ -26,9 +26,10 @@ template_context small_context() {
     function_context function;
     function.name = "gravity";
     function.summary = "Less than <, more than > and \"quotes\" & ampersands.";
-    function.arguments = {{"q", "const Scalar* q", "q [1]", false, true}, {"G", "Scalar* G", "G [1]", true, true}};
-    function.functions = {"cos"};
-    function.statements = {"G[0] = cos(q[0]);"};
+    function.meanings = {"q [1]", "G [1]"};
+    const routine_context routine{
+        function.summary, function.meanings, "void gravity(const Scalar* q, Scalar* G)", {}, {"G[0] = cos(q[0]);"}};
+    function.variants = {{"Scalar", "", false, {routine}}};
     context.functions = {function};
     return context;
 }
@@ -47,7 +48,7 @@ class TemplateRenderer : public testing::Test {
 
     std::string error() const {
         try {
-            render_cpp(small_context(), templates());
+            render(small_context(), templates());
         } catch (const std::runtime_error& error) {
             return error.what();
         }
@@ -65,15 +66,23 @@ std::string text_of(const std::vector<rendered_file>& files, const std::string& 
 }  // namespace
 
 TEST_F(TemplateRenderer, PrintsEveryFunctionWithItsTextAsItIs) {
-    const auto files = render_cpp(small_context(), templates());
+    const auto files = render(small_context(), templates());
     const std::string gravity = text_of(files, "gravity.hpp");
     EXPECT_NE(gravity.find("Less than <, more than > and \"quotes\" & ampersands."), std::string::npos) << gravity;
     EXPECT_NE(gravity.find("G[0] = cos(q[0]);"), std::string::npos);
     EXPECT_NE(gravity.find("arm.yaml"), std::string::npos);
-    EXPECT_NE(gravity.find("0123456789abcdef"), std::string::npos);
     for (const rendered_file& file : files) {
         EXPECT_EQ(file.text.find("{{"), std::string::npos) << file.name;
         EXPECT_EQ(file.text.find(templates()), std::string::npos) << file.name;
+    }
+}
+
+TEST_F(TemplateRenderer, TheHashOfTheInputStandsInOneLineOfOneFile) {
+    const std::string hash = small_context().input_hash;
+    for (const rendered_file& file : render(small_context(), templates())) {
+        const std::size_t at = file.text.find(hash);
+        EXPECT_EQ(at != std::string::npos, file.name == "model.hpp") << file.name;
+        EXPECT_EQ(at == std::string::npos ? at : file.text.find(hash, at + 1), std::string::npos) << file.name;
     }
 }
 
@@ -81,7 +90,7 @@ TEST_F(TemplateRenderer, ARobotWithoutConstantsAndEffectsIsPrinted) {
     template_context context = small_context();
     context.constants.clear();
     context.effects.clear();
-    EXPECT_FALSE(text_of(render_cpp(context, templates()), "model.hpp").empty());
+    EXPECT_FALSE(text_of(render(context, templates()), "model.hpp").empty());
 }
 
 TEST_F(TemplateRenderer, AKeyThatNoOneProvidesIsAnErrorThatNamesIt) {
@@ -93,12 +102,39 @@ TEST_F(TemplateRenderer, AKeyThatNoOneProvidesIsAnErrorThatNamesIt) {
     }
 }
 
-TEST_F(TemplateRenderer, ATemplateThatIsMissingOrMalformedIsAnErrorThatNamesIt) {
+TEST_F(TemplateRenderer, ATemplateThatIsMalformedIsAnErrorThatNamesIt) {
     append("function.hpp.mustache", "{{#arguments}}");
     EXPECT_NE(error().find("function.hpp.mustache"), std::string::npos) << error();
-    std::filesystem::remove(templates() + "/function.hpp.mustache");
-    EXPECT_NE(error().find("cannot read template"), std::string::npos) << error();
-    EXPECT_NE(error().find("function.hpp.mustache"), std::string::npos) << error();
+}
+
+TEST_F(TemplateRenderer, AFolderWithoutTemplatesIsAnErrorThatNamesIt) {
+    std::filesystem::remove_all(templates());
+    EXPECT_NE(error().find("no templates in " + templates()), std::string::npos) << error();
+    std::filesystem::create_directory(templates());
+    EXPECT_NE(error().find("no templates in " + templates()), std::string::npos) << error();
+}
+
+TEST_F(TemplateRenderer, TheNameOfATemplateSaysWhatItsFilesAreCalled) {
+    template_context context = small_context();
+    context.functions.front().variants.push_back({"float", "_f", false, {}});
+    folder_.write("lang/function.x.mustache", "{{name}} in {{scalar}}\n");
+    folder_.write("lang/robot.y.mustache", "{{>head}}\n{{robot}}\n");
+    folder_.write("lang/any.z.mustache", "{{n_base}}\n");
+    folder_.write("lang/head.mustache", "of {{robot_file}}\n");
+    const auto files = render(context, (folder_.path() / "lang").string());
+    ASSERT_EQ(files.size(), 4u);
+    EXPECT_EQ(text_of(files, "any.z"), "1\n");
+    EXPECT_EQ(text_of(files, "gravity.x"), "gravity in Scalar\n");
+    EXPECT_EQ(text_of(files, "gravity_f.x"), "gravity in float\n");
+    EXPECT_EQ(text_of(files, "arm.y"), "of arm.yaml\narm\n");
+}
+
+TEST_F(TemplateRenderer, ASectionThatIsNotPrintedLeavesNoLine) {
+    template_context context = small_context();
+    context.effects.clear();
+    folder_.write("lang/any.z.mustache",
+                  "a\n{{#effects}}\n{{text}}\n{{/effects}}\n\n{{#constants}}\n{{text}}\n{{/constants}}\nb\n");
+    EXPECT_EQ(text_of(render(context, (folder_.path() / "lang").string()), "any.z"), "a\n\nL = 0.5\nb\n");
 }
 
 }  // namespace idim::generator

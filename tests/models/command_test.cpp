@@ -1,6 +1,9 @@
 // What the command says of descriptions that cannot be right: one line that names file, line and field, exit status 2,
 // and nothing written.
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <ostream>
@@ -110,6 +113,22 @@ TEST(Command, FolderThatCannotBeMadeIsBadInput) {
     const command_result result = run_idim({"generate", robot_file("emps"), "-o", file + "/model"});
     EXPECT_EQ(result.status, 2);
     expect_one_line(result.err);
+}
+
+TEST(Command, JsonIsWrittenIntoAPipeAndDoesNotReplaceIt) {
+    const temporary_folder folder;
+    const std::string pipe = (folder.path() / "pipe").string();
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    const int reader = open(pipe.c_str(), O_RDWR);  // so that the command need not wait for one
+    ASSERT_GE(reader, 0);
+    EXPECT_EQ(run_idim({"base", robot_file("emps"), "--json", pipe}).status, 0);
+    std::string text(1 << 12, '\0');
+    const ssize_t size = read(reader, text.data(), text.size());
+    close(reader);
+    EXPECT_EQ(text.rfind("{\n  \"idim_version\"", 0), 0u);
+    EXPECT_GT(size, 0);
+    EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }
 
 TEST(Command, RankThatCannotBeProvenFailsWithBothFigures) {

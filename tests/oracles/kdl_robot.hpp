@@ -24,6 +24,7 @@ class kdl_robot {
     Eigen::VectorXd gravity(const Eigen::VectorXd& q) const;
     /// Potential energy [J], zero at the origin of the base.
     double potential_energy(const Eigen::VectorXd& q) const;
+    const KDL::Chain& chain() const { return chain_; }
 
   private:
     KDL::Chain chain_;

@@ -1,6 +1,9 @@
 #include "idim/log.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 #include <zlib.h>
 
 #include <cmath>
@@ -179,6 +182,21 @@ TEST_F(LogTest, MissingColumnIsNamedWithThoseThereAre) {
               "a.csv:1: q1 (or q_slide): this column is missing; the file has t, pos, tau1");
     EXPECT_EQ(error(write("a.csv", "t,q1\n0,1\n"), one_joint),
               "a.csv:1: tau1 (or tau_slide) or v1 (or v_slide): this column is missing; the file has t, q1");
+}
+
+TEST_F(LogTest, IsWrittenIntoAPipeAndDoesNotReplaceIt) {
+    ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+    const int reader = open(path("pipe").c_str(), O_RDWR);  // so that the writer need not wait for one
+    ASSERT_GE(reader, 0);
+    log data;
+    data.t = Eigen::Vector2d(0.0, 0.5);
+    data.q = Eigen::Vector2d(1.0, 2.0);
+    write_log(path("pipe"), data);
+    char first[2] = {};
+    EXPECT_EQ(read(reader, first, sizeof first), 2);
+    close(reader);
+    EXPECT_EQ(std::string(first, 2), "t,");
+    EXPECT_TRUE(std::filesystem::is_fifo(path("pipe")));
 }
 
 TEST_F(LogTest, SignalOfSomeJointsOnlyIsAnError) {

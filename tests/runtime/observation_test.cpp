@@ -154,6 +154,28 @@ TEST(Observation, RegressorLargerThanTheMemoryKeptIsTheSame) {
     EXPECT_EQ(block.W[1].col(9), decimate(samples.qd.col(1), 10));
 }
 
+TEST(Observation, RowsOfTheBatchFormAreThoseOfOneSampleAtATime) {
+    const filtered_samples samples = two_joint_samples(333, 100.0);  // no multiple of what is evaluated at once
+    const observation_block expected = observe(two_joint_model(), {samples}, {10.0, 4, 10, ""}).blocks.at(0);
+    idim_model_interface model = two_joint_model();
+    model.regressor_batch = [](const idim_samples* all, double* W, size_t W_stride) {
+        const size_t n = all->stride;
+        for (size_t k = 0; k < all->count; ++k) {
+            const double q[] = {all->q[k], all->q[n + k]}, qd[] = {all->qd[k], all->qd[n + k]};
+            const double qdd[] = {all->qdd[k], all->qdd[n + k]}, temp[] = {all->temp[k], all->temp[n + k]};
+            double row[6];
+            two_joint_model().regressor(q, qd, qdd, all->t[k], temp, row);
+            for (size_t i = 0; i < 6; ++i) {
+                W[i * W_stride + k] = row[i];
+            }
+        }
+    };
+    model.regressor = nullptr;
+    const observation_block block = observe(model, {samples}, {10.0, 4, 10, ""}).blocks.at(0);
+    EXPECT_EQ(block.W[0], expected.W[0]);
+    EXPECT_EQ(block.W[1], expected.W[1]);
+}
+
 template <class Exception>
 std::string error(const idim_model_interface& model, const std::vector<filtered_samples>& logs, int decimation) {
     try {

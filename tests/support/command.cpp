@@ -19,18 +19,16 @@ namespace {
     const int err_file = open(err.c_str(), O_WRONLY | O_CREAT, 0600);
     dup2(out_file, STDOUT_FILENO);
     dup2(err_file, STDERR_FILENO);
-    execv(words[0], words.data());
+    execvp(words[0], words.data());
     _exit(127);
 }
 
 }  // namespace
 
-command_result run_idim(const std::vector<std::string>& arguments) {
+command_result run_program(std::vector<std::string> texts) {
     const temporary_folder folder;
     const std::string out = (folder.path() / "out").string();
     const std::string err = (folder.path() / "err").string();
-    std::vector<std::string> texts = {IDIM_COMMAND};
-    texts.insert(texts.end(), arguments.begin(), arguments.end());
     std::vector<char*> words;
     for (std::string& text : texts) {
         words.push_back(text.data());
@@ -46,6 +44,12 @@ command_result run_idim(const std::vector<std::string>& arguments) {
     int status = 0;
     waitpid(child, &status, 0);
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(out), read_text(err)};
+}
+
+command_result run_idim(const std::vector<std::string>& arguments) {
+    std::vector<std::string> words = {IDIM_COMMAND};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    return run_program(words);
 }
 
 }  // namespace idim::test

@@ -12,7 +12,10 @@ struct command_result {
     std::string out, err;
 };
 
-/// Runs the command `idim` that this build made, in a fresh process, and waits for its end.
+/// Runs a program, looked for on the PATH, and waits for its end.
+command_result run_program(std::vector<std::string> words);
+
+/// Runs the command `idim` that this build made, in a fresh process.
 command_result run_idim(const std::vector<std::string>& arguments);
 
 }  // namespace idim::test

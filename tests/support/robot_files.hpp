@@ -29,16 +29,32 @@ inline std::string robot_file(const std::string& robot) {
     return source_folder + "/robots/" + robot + "/" + robot + ".yaml";
 }
 
-/// Every folder of robots/, in alphabetical order.
-inline std::vector<std::string> robot_names() {
+/// Two joints with an effect that calls every function an expression may call; depends on time and temperatures.
+inline const std::string effects_arm_file = source_folder + "/tests/support/effects_arm/effects_arm.yaml";
+
+/// Every folder in a folder of the sources, in alphabetical order.
+inline std::vector<std::string> folders_in(const std::string& parent) {
     std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(source_folder + "/robots")) {
+    for (const auto& entry : std::filesystem::directory_iterator(source_folder + "/" + parent)) {
         if (entry.is_directory()) {
             names.push_back(entry.path().filename().string());
         }
     }
     std::sort(names.begin(), names.end());
     return names;
+}
+
+inline std::vector<std::string> robot_names() {
+    return folders_in("robots");
+}
+
+/// `text` with the one place where `from` stands changed.
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    if (at == std::string::npos || text.find(from, at + 1) != std::string::npos) {
+        throw std::runtime_error("\"" + from + "\" does not stand in the text once");
+    }
+    return text.replace(at, from.size(), to);
 }
 
 /// Text of a robot's description with other effects: `effects` is what stands behind "effects:".

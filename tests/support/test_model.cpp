@@ -32,10 +32,6 @@ const char* const float_function =
     "    model::inverse_dynamics(q, qd, qdd, chi, tau);\n"
     "}\n";
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-    return text.replace(text.find(from), from.size(), to);
-}
-
 std::vector<model_source> sources_of(const generator::generated_model& generated) {
     std::vector<model_source> sources;
     bool needs_signals = false;

@@ -4,11 +4,25 @@
 #ifndef IDIM_MODEL_INTERFACE_H
 #define IDIM_MODEL_INTERFACE_H
 
-#define IDIM_MODEL_ABI 2
+#define IDIM_MODEL_ABI 3
+
+#include <stddef.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+/* Many samples as a structure of arrays: sample k of joint j stands at [j * stride + k] of q, qd, qdd and temp, and at [k] of t. A matrix
+ * with a row for each sample and a column for each joint, by columns, is one; stride is its leading dimension. No alignment is asked for. */
+struct idim_samples {
+    size_t count;
+    size_t stride; /* >= count */
+    const double* q;
+    const double* qd;
+    const double* qdd;
+    const double* t;    /* read if needs_time */
+    const double* temp; /* read if needs_temperature */
+};
 
 struct idim_model_interface {
     int abi;                            /* IDIM_MODEL_ABI of the generator that wrote the model */
@@ -41,6 +55,11 @@ struct idim_model_interface {
     /* qdd [n] = M(q)^-1 (tau - N); returns 0, or j in 1..n where the factorisation met a pivot that is not positive */
     int (*forward_dynamics)(const double* q, const double* qd, const double* tau, double t, const double* temp,
                             const double* chi, double* qdd);
+    /* Regressors: row i, column p of sample k at W[(i * b + p) * W_stride + k], W_stride >= count. What a sample gives differs from regressor() by a
+     * few roundings (sines of its own) and depends on no other sample. Null in a model that has none: then regressor() serves. */
+    void (*regressor_batch)(const struct idim_samples* samples, double* W, size_t W_stride);
+    /* Torques likewise: joint j of sample k at tau[j * tau_stride + k] */
+    void (*inverse_dynamics_batch)(const struct idim_samples* samples, const double* chi, double* tau, size_t tau_stride);
     /* chi [b] of a robot whose standard parameters [s] are known */
     void (*regroup)(const double* standard, double* chi);
 };

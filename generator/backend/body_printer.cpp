@@ -1,4 +1,4 @@
-#include "backend/cpp_body.hpp"
+#include "backend/body_printer.hpp"
 
 #include <fmt/format.h>
 
@@ -21,16 +21,23 @@ struct printed {
     binding tightness = binding::atom;
 };
 
-class cpp_printer {
+class body_printer {
   public:
-    cpp_printer(const expression_graph& graph, const std::set<std::string>& reserved)
-        : graph_(graph), live_(graph.live()), uses_(graph.nodes().size(), 0), used_(reserved) {
+    body_printer(const expression_graph& graph, const language& spelling, const std::set<std::string>& reserved,
+                 const element_names& names)
+        : graph_(graph),
+          spelling_(spelling),
+          names_(names),
+          live_(graph.live()),
+          uses_(graph.nodes().size(), 0),
+          used_(spelling.reserved()) {
+        used_.insert(reserved.begin(), reserved.end());
         count_uses();
     }
 
     std::vector<std::string> run() {
         for (std::size_t id = 0; id < live_.size(); ++id) {
-            declare_parameter(static_cast<int>(id));
+            name_leaf(static_cast<int>(id));
         }
         for (std::size_t id = 0; id < live_.size(); ++id) {
             const graph_node& node = graph_.nodes()[id];
@@ -45,7 +52,7 @@ class cpp_printer {
         for (const graph_output& out : outputs) {
             owner_ = fmt::format("{}{}", out.array, out.index + 1);
             declare_shared(out.value.id);
-            emit(fmt::format("{}[{}] = {};", out.array, out.index, with_sign(out.value)));
+            emit(spelling_.assignment(spelling_.element(names_, out.array, out.index), with_sign(out.value)));
         }
         return std::move(lines_);
     }
@@ -79,15 +86,16 @@ class cpp_printer {
         return name;
     }
 
-    void declare_parameter(int id) {
+    /// Parameters and given sines are known by name; signals by their place in the argument.
+    void name_leaf(int id) {
         const graph_node& node = graph_.nodes()[static_cast<std::size_t>(id)];
-        if (!live_[static_cast<std::size_t>(id)] || node.kind != operation::symbol ||
-            node.role != symbol_role::parameter) {
+        const bool has_name = node.role == symbol_role::parameter || node.role == symbol_role::sine;
+        if (!live_[static_cast<std::size_t>(id)] || node.kind != operation::symbol || !has_name) {
             return;
         }
-        const graph_symbol& symbol = graph_.symbols()[static_cast<std::size_t>(node.symbol)];
-        variable_[id] = unique(symbol.name);
-        emit(fmt::format("const Scalar& {} = chi[{}];", variable_[id], symbol.index));
+        const std::string element = leaf(node).text;
+        variable_[id] = unique(graph_.symbols()[static_cast<std::size_t>(node.symbol)].name);
+        emit(spelling_.alias(variable_[id], element));
     }
 
     /// Gives every shared, unnamed node below `id` a variable before the line that needs it.
@@ -117,17 +125,17 @@ class cpp_printer {
         declare_operands(node);
         const std::string text = expression(node).text;
         const std::string name = unique(wanted);
-        emit(fmt::format("const Scalar {} = {};", name, text));
+        emit(spelling_.definition(name, text));
         variable_[id] = name;
     }
 
     printed leaf(const graph_node& node) const {
         if (node.kind == operation::constant) {
-            return {fmt::format("Scalar({})", to_decimal(node.value))};
+            return {spelling_.number(node.value)};
         }
         const graph_symbol& symbol = graph_.symbols()[static_cast<std::size_t>(node.symbol)];
         const std::string argument = argument_name(symbol.role);
-        return {symbol.role == symbol_role::time ? argument : fmt::format("{}[{}]", argument, symbol.index)};
+        return {symbol.role == symbol_role::time ? argument : spelling_.element(names_, argument, symbol.index)};
     }
 
     printed operand(int id) const {
@@ -168,7 +176,7 @@ class cpp_printer {
         if (has_second(node)) {
             arguments += ", " + with_sign(node.b);
         }
-        return {fmt::format("{}({})", to_string(node.function), arguments)};
+        return {spelling_.call(node.function, arguments)};
     }
 
     /// Breaks long statements at blanks, which only stand around operators.
@@ -187,6 +195,8 @@ class cpp_printer {
     }
 
     const expression_graph& graph_;
+    const language& spelling_;
+    const element_names& names_;
     std::vector<bool> live_;
     std::vector<int> uses_;
     std::set<std::string> used_;
@@ -216,6 +226,8 @@ std::string argument_name(symbol_role role) {
             return "qdd";
         case symbol_role::torque:
             return "tau";
+        case symbol_role::sine:
+            return "sc";
         case symbol_role::constant:
         case symbol_role::intermediate:
             break;
@@ -223,8 +235,9 @@ std::string argument_name(symbol_role role) {
     throw std::logic_error("a leaf of this role is no argument");
 }
 
-std::vector<std::string> print_cpp(const expression_graph& graph, const std::set<std::string>& reserved) {
-    return cpp_printer(graph, reserved).run();
+std::vector<std::string> print_body(const expression_graph& graph, const language& spelling,
+                                    const std::set<std::string>& reserved, const element_names& names) {
+    return body_printer(graph, spelling, reserved, names).run();
 }
 
 }  // namespace idim::generator

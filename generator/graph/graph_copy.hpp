@@ -1,0 +1,28 @@
+#pragma once
+
+#include <map>
+
+#include "graph/expression_graph.hpp"
+
+namespace idim::generator {
+
+/// Copies nodes of one graph, with all that they need, into another: node by node through the functions that build a
+/// graph, so that the copy is simplified and shared as if it had been built there.
+class graph_copy {
+  public:
+    graph_copy(const expression_graph& from, expression_graph& to) : from_(from), to_(to) {}
+
+    /// The copy of a value.
+    signed_node of(signed_node value);
+    /// From now on `copy` stands for a node of the original.
+    void replace(signed_node original, signed_node copy) { known_[original.id] = original.negative ? -copy : copy; }
+
+  private:
+    signed_node build(const graph_node& node);
+
+    const expression_graph& from_;
+    expression_graph& to_;
+    std::map<int, signed_node> known_;
+};
+
+}  // namespace idim::generator
