@@ -44,6 +44,9 @@ function_kind kind_of(const ex& function) {
 class graph_builder {
   public:
     graph_builder(const symbolic_model& model, constants_as constants) {
+        // About three operations to an assignment.
+        graph_.reserve(model.leaves().size() + 3 * model.assignments().size());
+        symbols_.reserve(model.leaves().size() + model.assignments().size());
         for (const symbolic_leaf& leaf : model.leaves()) {
             const bool fold = leaf.value && constants == constants_as::values;
             add_symbol(leaf.symbol, fold ? graph_.constant(*leaf.value) : graph_.symbol(leaf.declared));

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <kainjow/mustache.hpp>
+#include <memory>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -60,6 +61,23 @@ std::string read_template(const std::string& folder, const std::string& name) {
     return text.str();
 }
 
+/// Repeats the one line of a section, as it stands between the tags, for every text. The line break before the closing
+/// tag is left to the one behind it.
+std::string lay_out(const std::vector<std::string>& lines, const std::string& section) {
+    const std::string tag = "{{text}}";
+    const std::size_t at = section.find(tag);
+    if (at == std::string::npos || section.front() != '\n' || section.back() != '\n') {
+        throw std::runtime_error("template: expected one line with {{text}} between the tags of a section of lines");
+    }
+    const std::string before = section.substr(1, at - 1);
+    const std::string after = section.substr(at + tag.size(), section.size() - 1 - at - tag.size());
+    std::string text;
+    for (const std::string& line : lines) {
+        text.append(text.empty() ? "" : "\n").append(before).append(line).append(after);
+    }
+    return text;
+}
+
 /// Collects values and remembers every key, so that a key no one provides is an error instead of an empty string.
 class context_data {
   public:
@@ -73,16 +91,19 @@ class context_data {
         }
         data_.set(key, entries);
     }
-    /// Lines of a section whose tag is "text"; the tag is known even where there is no line. There are thousands of
-    /// them, so they are put in place with as few copies as the library allows.
+    /// Lines of a section whose tag is "text"; the tag is known even where there is no line. A body has thousands of
+    /// them, which the library would copy and look up one by one, so the section lays them out itself.
     void set_lines(const std::string& key, const std::vector<std::string>& lines) {
-        kainjow::mustache::list entries;
-        entries.reserve(lines.size());
-        for (const std::string& line : lines) {
-            entries.emplace_back("text", line);
-        }
         keys_.insert({key, "text"});
-        data_[key] = data{entries};
+        if (lines.empty()) {
+            data_.set(key, data{data::type::list});
+        } else {
+            const auto shared = std::make_shared<const std::vector<std::string>>(lines);
+            const auto layout = [shared](const std::string& section, const kainjow::mustache::renderer&) {
+                return lay_out(*shared, section);
+            };
+            data_.set(key, data{kainjow::mustache::lambda2{layout}});
+        }
     }
     /// The keys of an entry, for a list that may be empty.
     void know(const context_data& entry) { keys_.insert(entry.keys_.begin(), entry.keys_.end()); }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 #include <stdexcept>
 
 namespace idim::generator {
@@ -48,6 +47,11 @@ std::size_t expression_graph::key_hash::operator()(const key& k) const {
 expression_graph::expression_graph() {
     zero_ = constant(0).id;
     one_ = constant(1).id;
+}
+
+void expression_graph::reserve(std::size_t nodes) {
+    nodes_.reserve(nodes);
+    known_.reserve(nodes);
 }
 
 signed_node expression_graph::constant(const rational& value) {
@@ -240,7 +244,8 @@ std::vector<bool> expression_graph::live() const {
 }
 
 void expression_graph::assert_invariants() const {
-    std::set<key> seen;
+    std::vector<key> keys;
+    keys.reserve(nodes_.size());
     for (std::size_t id = 0; id < nodes_.size(); ++id) {
         const graph_node& node = nodes_[id];
         if (node.kind == operation::constant || node.kind == operation::symbol) {
@@ -257,9 +262,13 @@ void expression_graph::assert_invariants() const {
             (node.a.negative || node.b.negative || (!is_constant(node.a) && node.a.id > node.b.id))) {
             throw std::logic_error(fmt::format("product {} not in normal form: {} {}", here, node.a.id, node.b.id));
         }
-        if (!seen.insert({node.kind, node.function, node.a.id, node.a.negative, node.b.id, node.b.negative}).second) {
-            throw std::logic_error(fmt::format("node {} stands twice", here));
-        }
+        keys.push_back({node.kind, node.function, node.a.id, node.a.negative, node.b.id, node.b.negative});
+    }
+    std::sort(keys.begin(), keys.end());
+    const auto twice = std::adjacent_find(keys.begin(), keys.end());
+    if (twice != keys.end()) {
+        throw std::logic_error(
+            fmt::format("a node of {} and {} stands twice", std::get<2>(*twice), std::get<4>(*twice)));
     }
 }
 

@@ -79,6 +79,9 @@ class expression_graph {
   public:
     expression_graph();
 
+    /// Makes room for so many nodes.
+    void reserve(std::size_t nodes);
+
     signed_node constant(const rational& value);
     signed_node zero() const { return {zero_, false}; }
     signed_node one() const { return {one_, false}; }
