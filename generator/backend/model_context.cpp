@@ -94,10 +94,10 @@ std::vector<function_argument> arguments(const function_plan& plan, const robot_
     return result;
 }
 
-// 2026-11-22: should code name its constants (constexpr L = 0.5), so that a changed length is a change of one line? That
-// takes constants as symbols, and lengths that are equal, sums and products of lengths are then no longer shared and
-// folded: 1 to 6 multiplications more in M and in the direct model (Denso 125 -> 130, PUMA 137 -> 143), none elsewhere.
-// Kept as values: a changed length touches few lines, and each of them holds it.
+// 2026-11-22: should code name its constants (constexpr L = 0.5), so that a changed length is a change of one line?
+// That takes constants as symbols, and lengths that are equal, sums and products of lengths are then no longer shared
+// and folded: 1 to 6 multiplications more in M and in the direct model (Denso 125 -> 130, PUMA 137 -> 143), none
+// elsewhere. Kept as values: a changed length touches few lines, and each of them holds it.
 model_function derive(const function_plan& plan, const robot_model& model) {
     return {plan.name, plan.summary, arguments(plan, model),
             build_graph(plan.build(model.tree, model.parameters, model.base.selection()), constants_as::values)};
