@@ -13,7 +13,7 @@ std::size_t at(int index) {
 /// The smallest rotation that takes z to `normal`; about x where it is -z.
 decimal_matrix smallest_turn(const decimal_vector& normal) {
     const decimal_vector v(-normal[1], normal[0], 0);  // z x normal
-    const decimal cosine = normal[2];
+    const decimal& cosine = normal[2];
     if (1 + cosine < geometric_tolerance) {
         return decimal_vector(1, -1, -1).asDiagonal();
     }

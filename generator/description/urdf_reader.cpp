@@ -435,10 +435,12 @@ class urdf_file {
     /// The joint that `joint` mimics is driven, or resolved itself.
     void resolve_mimic(urdf_joint& joint) {
         urdf_mimic& own = *joint.mimic;
-        if (const urdf_joint& master = joint_at(own.joint); !has_one_axis(master)) {
+        const urdf_joint& master = joint_at(own.joint);
+        if (!has_one_axis(master)) {
             throw input_error(joint.where, "mimics joint " + quote(master.name) +
                                                ", expected a revolute, continuous or prismatic joint");
-        } else if (master.mimic) {
+        }
+        if (master.mimic) {
             const decimal factor = decimal_of(own.multiplier);
             const decimal offset = decimal_of(own.offset) + factor * decimal_of(master.mimic->offset);
             own = {master.mimic->joint, nearest_double(factor * decimal_of(master.mimic->multiplier)),

@@ -34,7 +34,8 @@ virtual_twist step(symbolic_model& model, const kinematic_joint& joint, const li
 /// f = M VP + WP x MS + W x (W x MS) and the moment n = J WP + W x (J W) + MS x VP at the link's origin.
 std::array<ex, 10> inertial_columns(symbolic_model& model, const link_motion& link, const virtual_twist& twist,
                                     const std::string& label) {
-    const auto& [w, v] = twist;
+    const vector3& w = twist.angular;
+    const vector3& v = twist.linear;
     const vector3 s = model.assign("s" + label, cross(w, link.W));  // w . (W x J W) = s . J W
     const auto inertia = [&](std::size_t a, std::size_t b) { return w[a] * link.WP[b] + s[a] * link.W[b]; };
     const ex along = model.assign("vW" + label, dot(v, link.W));
