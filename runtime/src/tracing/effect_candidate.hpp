@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "traced_log.hpp"
@@ -54,6 +55,10 @@ class effect_candidate {
     /// The same without the low-pass, from the signals at the rows' own times: good enough to search a shape.
     virtual Eigen::MatrixXd quick_rows(const traced_log& log, int joint, const Eigen::VectorXd& at) const {
         return rows(log, joint, at);
+    }
+    /// Value and deviation that the description declares, from those of a coefficient.
+    virtual std::pair<double, double> declared(double coefficient, double deviation) const {
+        return {coefficient, deviation};
     }
     /// The same effect with the model linearised around the coefficients found; none where its columns do not depend on
     /// them.

@@ -4,7 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <limits>
 
 #include "candidate_list.hpp"
 #include "effect_tracer.hpp"
@@ -19,6 +21,7 @@ namespace {
 
 constexpr double first_alignment = 0.5;  ///< of a sample: where its linearisation starts
 constexpr int linearisations = 3;
+constexpr double implausible_z = 2.0;
 
 error_summary errors_of(const trace_fit& fit, bool held_back) {
     error_summary summary;
@@ -73,6 +76,25 @@ const std::vector<int>& joints_of(const effect_candidate& candidate) {
     return candidate.joints;
 }
 
+/// Smallest values of the base parameters that make sense: those of effects' coefficients, by name.
+Eigen::VectorXd least_values(const trace_input& input) {
+    const idim_model_interface& model = *input.model;
+    Eigen::VectorXd least = Eigen::VectorXd::Constant(model.n_base, -std::numeric_limits<double>::infinity());
+    for (int e = 0; e < input.catalogue->count; ++e) {
+        const idim_effect& effect = input.catalogue->effects[e];
+        for (int c = 0; c < effect.n_linear; ++c) {
+            const std::string stem = effect.linear_names[c];
+            for (int k = 0; k < model.n_base && effect.linear_min[c] == 0.0; ++k) {
+                const std::string name = model.parameter_names[k];
+                const bool same = name.size() > stem.size() && name.compare(0, stem.size(), stem) == 0 &&
+                                  std::isdigit(static_cast<unsigned char>(name[stem.size()])) != 0;
+                least[k] = same ? 0.0 : least[k];
+            }
+        }
+    }
+    return least;
+}
+
 class tracer {
   public:
     explicit tracer(const trace_input& input) : input_(input) {
@@ -83,6 +105,7 @@ class tracer {
             logs_.push_back(make_traced_log(*input.model, samples, input.filter, true));
         }
         result_.floor = floor_from_spectrum(logs_);
+        least_ = least_values(input);
     }
 
     effect_trace run() {
@@ -162,13 +185,35 @@ class tracer {
             std::vector<effect_term> terms = fit.terms();
             terms.push_back(all.candidates[i].evidence.term);
             trace_fit with = settled(fit_with_own_noise(logs_, terms, &fit.noise()));
-            if (errors_of(with, true).relative_error > errors_of(fit, true).relative_error) {
+            if (errors_of(with, true).relative_error > errors_of(fit, true).relative_error ||
+                makes_implausible(fit, with)) {
                 continue;
             }
             record(fit, with, all, i);
             return pruned(std::move(with));
         }
         return std::nullopt;
+    }
+
+    /// Whether a coefficient that cannot be negative, such as a friction's, has become so beyond its uncertainty.
+    bool makes_implausible(const trace_fit& before, const trace_fit& after) const {
+        const double length = correlation_length(after, after.residual(), after.terms().back().candidate->touched.front());
+        for (Eigen::Index k = 0; k < least_.size(); ++k) {
+            const double deviation = std::sqrt(length) * after.white_deviation(k);
+            const double value = after.chi()[k];
+            if (value < least_[k] - implausible_z * deviation && value < before.chi()[k]) {
+                return true;
+            }
+        }
+        for (std::size_t i = static_cast<std::size_t>(fixed_); i < after.terms().size(); ++i) {
+            const std::vector<linear_bound>& linear = after.terms()[i].candidate->linear;
+            for (std::size_t c = 0; c < linear.size(); ++c) {
+                if (after.coefficients(i)[static_cast<Eigen::Index>(c)] < linear[c].min) {
+                    return true;
+                }
+            }
+        }
+        return false;
     }
 
     /// Shapes searched and models linearised again around what was found.
@@ -236,10 +281,13 @@ class tracer {
             for (Eigen::Index c = 0; c < values[i].value.size(); ++c) {
                 const bool linear = c < m;
                 const auto k = static_cast<std::size_t>(linear ? c : c - m);
+                const auto [value, deviation] =
+                    linear ? candidate.declared(values[i].value[c], values[i].deviation[c])
+                           : std::pair(values[i].value[c], values[i].deviation[c]);
                 result_.steps[s].parameters.push_back(
                     {linear ? candidate.linear[k].name : candidate.shape[k].name,
-                     linear ? candidate.linear[k].unit : candidate.shape[k].unit, values[i].value[c],
-                     values[i].deviation[c], !linear || candidate.role == column_role::shape});
+                     linear ? candidate.linear[k].unit : candidate.shape[k].unit, value, deviation,
+                     !linear || candidate.role == column_role::shape});
             }
         }
     }
@@ -247,6 +295,7 @@ class tracer {
     const trace_input& input_;
     std::vector<traced_log> logs_;
     effect_trace result_;
+    Eigen::VectorXd least_;  ///< smallest value of each base parameter that makes sense
     int fixed_ = 0;  ///< terms in front that are no effects
 };
 

@@ -72,14 +72,14 @@ Eigen::VectorXd differentiated(const Eigen::Ref<const Eigen::VectorXd>& x, doubl
 
 class soft_transmission final : public effect_candidate {
   public:
-    soft_transmission(const idim_model_interface& model, Eigen::VectorXd chi, int joint, double at)
-        : model_(model), chi_(std::move(chi)), joint_(joint), at_(at) {
+    soft_transmission(const idim_model_interface& model, Eigen::VectorXd rigid, int joint, double at)
+        : model_(model), rigid_(std::move(rigid)), joint_(joint), at_(at) {
         effect = "joint_elasticity";
         joints = {joint};
         for (int j = 0; j < model.dof; ++j) {
             touched.push_back(j);
         }
-        linear = {{"compliance", "rad/(N*m)", 0.0}, {"rotor", "kg*m^2*rad/(N*m)"}};
+        linear = {{"K", "N*m/rad", 0.0}};
         role = column_role::shape;
     }
     Eigen::MatrixXd rows(const traced_log& log, int joint, const Eigen::VectorXd&) const override {
@@ -97,21 +97,19 @@ class soft_transmission final : public effect_candidate {
         const idim_samples link = {count,      count, q.data(), qd.data(), qdd.data(), motor.t.data(),
                                    motor.temp.size() > 0 ? motor.temp.data() : nullptr};
         Eigen::MatrixXd tau(motor.samples(), model_.dof);
-        model_.inverse_dynamics_batch(&link, chi_.data(), tau.data(), count);
-        Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(motor.samples(), 2);
-        columns.col(0) = (tau.col(joint) - log.tau_rigid.col(joint)) / at_;
-        if (joint == joint_) {
-            columns.col(1) = -twist_acceleration / at_;
-        }
-        return rows_of(log, joint, columns);
+        model_.inverse_dynamics_batch(&link, rigid_.data(), tau.data(), count);
+        return rows_of(log, joint, (tau.col(joint) - log.tau_rigid.col(joint)) / at_);
+    }
+    std::pair<double, double> declared(double compliance, double deviation) const override {
+        return {1.0 / compliance, deviation / (compliance * compliance)};
     }
     candidate_pointer relinearised(const Eigen::VectorXd& found) const override {
-        return found[0] > 0.0 ? std::make_shared<soft_transmission>(model_, chi_, joint_, found[0]) : nullptr;
+        return found[0] > 0.0 ? std::make_shared<soft_transmission>(model_, rigid_, joint_, found[0]) : nullptr;
     }
 
   private:
     const idim_model_interface& model_;
-    Eigen::VectorXd chi_;
+    Eigen::VectorXd rigid_;
     int joint_;
     double at_;
 };
@@ -136,7 +134,7 @@ candidate_pointer gain_candidate(int joint) {
 
 candidate_pointer elasticity_candidate(const idim_model_interface& model, const Eigen::VectorXd& chi, int joint,
                                        double at) {
-    return std::make_shared<soft_transmission>(model, chi, joint, at);
+    return std::make_shared<soft_transmission>(model, rigid_part(model, chi), joint, at);
 }
 
 }  // namespace idim

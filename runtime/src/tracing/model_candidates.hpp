@@ -18,8 +18,8 @@ candidate_pointer alignment_candidate(int joints, double at);
 /// The torque of joint j scaled by 1 + Ke: the column is the present model's torque.
 candidate_pointer gain_candidate(int joint);
 
-/// A transmission of stiffness 1 / c at joint j: the link lags its motor by c times the torque that passes. Columns: the
-/// secant in c of the torques of all joints, and of the rotor's own, which keeps to the motor.
+/// A transmission of stiffness K = 1 / c at joint j: the link lags its motor by c times the torque that passes. The column
+/// is the secant in c of the rigid links' torques at all joints.
 candidate_pointer elasticity_candidate(const idim_model_interface& model, const Eigen::VectorXd& chi, int joint,
                                        double at);
 

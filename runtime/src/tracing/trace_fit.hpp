@@ -63,6 +63,8 @@ class trace_fit {
     /// Deviations of the residual as this fit leaves it, for the next one.
     row_noise estimated_noise() const;
 
+    /// Deviation of a coefficient if the weighted residual were white.
+    double white_deviation(Eigen::Index column) const { return basis_scale_.row(column).norm(); }
     /// Coefficients of all columns whose prediction is the combination k of the orthonormal basis.
     Eigen::VectorXd basis_times(const Eigen::VectorXd& k) const { return basis_scale_ * k; }
 

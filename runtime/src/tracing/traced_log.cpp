@@ -52,7 +52,7 @@ row_flags reversals_of(const traced_log& log, Eigen::Index joint) {
 }
 
 bool is_rigid(std::string_view name) {
-    constexpr std::array<std::string_view, 11> kinds = {"XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M", "Ia"};
+    constexpr std::array<std::string_view, 10> kinds = {"XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M"};
     return std::any_of(kinds.begin(), kinds.end(), [&](std::string_view kind) {
         return name.size() > kind.size() && name.substr(0, kind.size()) == kind &&
                (std::isdigit(static_cast<unsigned char>(name[kind.size()])) != 0 || name[kind.size()] == '_');
@@ -110,14 +110,17 @@ traced_log make_traced_log(const idim_model_interface& model, filtered_samples s
 }
 
 void update_torques(const idim_model_interface& model, const Eigen::VectorXd& chi, traced_log& log) {
-    Eigen::VectorXd rigid = chi;
+    log.tau_model = torques_of(model, chi, log.samples);
+    log.tau_rigid = torques_of(model, rigid_part(model, chi), log.samples);
+}
+
+Eigen::VectorXd rigid_part(const idim_model_interface& model, Eigen::VectorXd chi) {
     for (int k = 0; k < model.n_base; ++k) {
         if (!is_rigid(model.parameter_names[k])) {
-            rigid[k] = 0.0;
+            chi[k] = 0.0;
         }
     }
-    log.tau_model = torques_of(model, chi, log.samples);
-    log.tau_rigid = torques_of(model, rigid, log.samples);
+    return chi;
 }
 
 std::pair<filtered_samples, filtered_samples> hold_back(const filtered_samples& samples, double share, double gap) {
