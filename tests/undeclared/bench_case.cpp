@@ -234,8 +234,13 @@ nlohmann::json truth_json(const bench_case& made) {
     nlohmann::json effects = nlohmann::json::array();
     for (std::size_t i = 0; i < made.effects.size(); ++i) {
         const missing_effect& e = made.effects[i];
-        effects.push_back({{"form", e.form}, {"effect", e.name}, {"joint", e.joint + 1}, {"other", e.other + 1},
-                           {"linear", e.linear}, {"shape", e.shape}, {"rho", made.rho_made[i]},
+        effects.push_back({{"form", e.form},
+                           {"effect", e.name},
+                           {"joint", e.joint + 1},
+                           {"other", e.other + 1},
+                           {"linear", e.linear},
+                           {"shape", e.shape},
+                           {"rho", made.rho_made[i]},
                            {"shows_at", made.shows_at[i] + 1}});
     }
     const recording_settings& s = made.settings;

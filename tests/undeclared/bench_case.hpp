@@ -12,13 +12,13 @@ namespace idim::undeclared {
 struct bench_case {
     std::string class_name;
     std::uint64_t seed = 0;
-    arm robot;                 ///< without the effects
-    declaration declared;      ///< what the description has
+    arm robot;             ///< without the effects
+    declaration declared;  ///< what the description has
     std::vector<missing_effect> effects;
-    double rho = 0.0;          ///< asked for; 0 where nothing is missing
+    double rho = 0.0;              ///< asked for; 0 where nothing is missing
     std::vector<double> rho_made;  ///< of each effect alone, at the joint where it shows most
     std::vector<int> shows_at;     ///< that joint
-    double cutoff = 0.0;       ///< of the rows that rho was measured on [Hz]
+    double cutoff = 0.0;           ///< of the rows that rho was measured on [Hz]
     recording_settings settings;
     std::vector<recording> identification, validation;
 };

@@ -69,20 +69,19 @@ case_result run_case(const tool& under_test, const std::string& class_name, std:
 
 std::string line_of(const case_result& result) {
     const bench_case& made = result.made;
-    const std::string head =
-        fmt::format("{} {} | {} {:.0f} Hz{}{} {}/{} | {}", made.class_name, made.seed, made.robot.kind,
-                    made.settings.log_rate, made.settings.commanded ? " commanded" : "",
-                    made.settings.regularisation == 0.0 ? " sticking" : "", made.settings.position.kind,
-                    made.settings.torque.kind, truth_text(made));
+    const std::string head = fmt::format(
+        "{} {} | {} {:.0f} Hz{}{} {}/{} | {}", made.class_name, made.seed, made.robot.kind, made.settings.log_rate,
+        made.settings.commanded ? " commanded" : "", made.settings.regularisation == 0.0 ? " sticking" : "",
+        made.settings.position.kind, made.settings.torque.kind, truth_text(made));
     if (!result.problem.empty()) {
         return head + " | BENCH: " + result.problem;
     }
     std::string line = head + " | " + found_text(result.found);
     if (result.true_model) {
-        line += fmt::format(" | valid {:.3f} -> {:.3f} %, to true {:.3f} (worst joint {:.2f}), rho there {:.2f}",
-                            100.0 * result.found.before_validation.relative,
-                            100.0 * result.found.after_validation.relative, result.scored.ratio,
-                            result.scored.worst_joint_ratio, result.scored.rho_in_tool_band);
+        line +=
+            fmt::format(" | valid {:.3f} -> {:.3f} %, to true {:.3f} (worst joint {:.2f}), rho there {:.2f}",
+                        100.0 * result.found.before_validation.relative, 100.0 * result.found.after_validation.relative,
+                        result.scored.ratio, result.scored.worst_joint_ratio, result.scored.rho_in_tool_band);
     }
     for (const scored_effect& effect : result.scored.effects) {
         line += effect.exactly ? " | right" : (effect.named ? " | family" : " | MISSED");
@@ -107,9 +106,15 @@ nlohmann::json json_of(const case_result& result) {
     for (std::size_t i = 0; i < made.effects.size(); ++i) {
         const missing_effect& e = made.effects[i];
         const scored_effect& s = result.scored.effects[i];
-        content["truth"].push_back({{"form", e.form}, {"effect", e.name}, {"joint", e.joint + 1},
-                                    {"other", e.other + 1}, {"rho", made.rho_made[i]}, {"linear", e.linear},
-                                    {"shape", e.shape}, {"named", s.named}, {"exactly", s.exactly},
+        content["truth"].push_back({{"form", e.form},
+                                    {"effect", e.name},
+                                    {"joint", e.joint + 1},
+                                    {"other", e.other + 1},
+                                    {"rho", made.rho_made[i]},
+                                    {"linear", e.linear},
+                                    {"shape", e.shape},
+                                    {"named", s.named},
+                                    {"exactly", s.exactly},
                                     {"right_joint", s.right_joint}});
     }
     content["verdict"] = result.found.verdict;

@@ -58,8 +58,8 @@ std::string description_text(const arm& robot, const declaration& declared) {
             "  - {{name: j{}, {}alpha: {}, d: {}, theta: {}, r: {}, limits: {{position: [{:.4f}, {:.4f}], velocity: "
             "{:.4f}}}}}\n",
             j + 1, row.prismatic ? "type: prismatic, " : "", angle_text(row.alpha), row.d,
-            with_coordinate(row.theta, !row.prismatic), with_coordinate(row.r, row.prismatic), -2.0 * one.position_limit,
-            2.0 * one.position_limit, 2.0 * one.velocity_limit);
+            with_coordinate(row.theta, !row.prismatic), with_coordinate(row.r, row.prismatic),
+            -2.0 * one.position_limit, 2.0 * one.position_limit, 2.0 * one.velocity_limit);
     }
     return text + "effects:\n" + effect_text("rotor_inertia", declared.rotor) +
            effect_text("viscous_friction", declared.viscous) + effect_text("coulomb_friction", declared.coulomb) +

@@ -9,12 +9,12 @@ namespace idim::undeclared {
 
 /// What a controller is tuned to.
 struct controller_settings {
-    double rate = 1000.0;         ///< [Hz]
-    double bandwidth = 20.0;      ///< [rad/s]
+    double rate = 1000.0;     ///< [Hz]
+    double bandwidth = 20.0;  ///< [rad/s]
     double damping = 0.9;
-    double integral = 0.0;        ///< [1/s], times the proportional gain
-    double gravity = 1.0;         ///< share of gravity that is compensated
-    bool feedforward = false;     ///< torques of the reference by the rigid model and rotors
+    double integral = 0.0;     ///< [1/s], times the proportional gain
+    double gravity = 1.0;      ///< share of gravity that is compensated
+    bool feedforward = false;  ///< torques of the reference by the rigid model and rotors
 };
 
 /// PD or PID control of each joint with compensation of gravity, as a sampled controller does it: from positions

@@ -9,11 +9,11 @@ namespace idim::undeclared {
 
 /// What is usual at each joint along a motion of the rigid links: the measure for drives, noise and effects.
 struct joint_scales {
-    Eigen::VectorXd torque;    ///< root mean square, drives included where they have a size [N m or N]
-    Eigen::VectorXd speed;     ///< root mean square [rad/s or m/s]
-    Eigen::VectorXd top_speed; ///< largest
-    Eigen::VectorXd range;     ///< largest distance from 0 [rad or m]
-    Eigen::VectorXd inertia;   ///< mean diagonal of the inertia matrix, links alone [kg m^2 or kg]
+    Eigen::VectorXd torque;     ///< root mean square, drives included where they have a size [N m or N]
+    Eigen::VectorXd speed;      ///< root mean square [rad/s or m/s]
+    Eigen::VectorXd top_speed;  ///< largest
+    Eigen::VectorXd range;      ///< largest distance from 0 [rad or m]
+    Eigen::VectorXd inertia;    ///< mean diagonal of the inertia matrix, links alone [kg m^2 or kg]
 };
 
 joint_scales scales_along(const arm& robot, const motion& reference);

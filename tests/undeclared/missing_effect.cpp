@@ -145,9 +145,7 @@ void make_periodic(const surroundings& s, missing_effect& effect) {
 }
 
 maker one(std::string parameter, double (*value)(const surroundings&)) {
-    return [parameter, value](const surroundings& s, missing_effect& effect) {
-        effect.linear[parameter] = value(s);
-    };
+    return [parameter, value](const surroundings& s, missing_effect& effect) { effect.linear[parameter] = value(s); };
 }
 
 double of_torque(const surroundings& s) {

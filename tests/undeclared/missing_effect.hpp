@@ -10,10 +10,10 @@ namespace idim::undeclared {
 
 /// Something a robot has and its description does not.
 struct missing_effect {
-    std::string form;                      ///< what the plant does: one of the forms below
-    std::string name;                      ///< its name in the catalogue, or of the nearest; empty outside the catalogue
-    int joint = 0;                         ///< where it acts; of a load, the link that carries it
-    int other = -1;                        ///< of a pair: the other joint
+    std::string form;  ///< what the plant does: one of the forms below
+    std::string name;  ///< its name in the catalogue, or of the nearest; empty outside the catalogue
+    int joint = 0;     ///< where it acts; of a load, the link that carries it
+    int other = -1;    ///< of a pair: the other joint
     std::map<std::string, double> linear;  ///< proportional to the strength, named as in the catalogue
     std::map<std::string, double> shape;   ///< the rest
 

@@ -78,7 +78,8 @@ void plant::carry_loads() {
     }
 }
 
-/// Everything but dry friction: on links and stiff joints in link_force_, on rotors behind a transmission in drive_force_.
+/// Everything but dry friction: on links and stiff joints in link_force_, on rotors behind a transmission in
+/// drive_force_.
 void plant::collect_forces(const Eigen::VectorXd& tau) {
     drive_force_ = tau;
     for (int j = 0; j < robot_.dof(); ++j) {
@@ -96,8 +97,8 @@ void plant::collect_forces(const Eigen::VectorXd& tau) {
     }
     link_force_ = drive_force_ - N_;
     for (const transmission& t : changes_.transmissions) {
-        const double torque = transmitted(t, signals_.q[t.joint] - link_q_[t.joint],
-                                          drive_velocity_[t.joint] - link_velocity_[t.joint]);
+        const double torque =
+            transmitted(t, signals_.q[t.joint] - link_q_[t.joint], drive_velocity_[t.joint] - link_velocity_[t.joint]);
         drive_force_[t.joint] -= torque;
         link_force_[t.joint] = torque - N_[t.joint];
     }
@@ -106,7 +107,8 @@ void plant::collect_forces(const Eigen::VectorXd& tau) {
 void plant::set_magnitudes() {
     for (int j = 0; j < robot_.dof(); ++j) {
         const bool replaced = bristle_of_[static_cast<std::size_t>(j)] >= 0;
-        rows_[static_cast<std::size_t>(j)].magnitude = replaced ? 0.0 : robot_.drives[static_cast<std::size_t>(j)].coulomb;
+        rows_[static_cast<std::size_t>(j)].magnitude =
+            replaced ? 0.0 : robot_.drives[static_cast<std::size_t>(j)].coulomb;
     }
     std::size_t several = robot_.rows.size();
     for (const dry_term& term : changes_.dry) {

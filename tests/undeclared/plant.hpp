@@ -20,8 +20,8 @@ class plant {
     void advance(const Eigen::VectorXd& tau, const Eigen::VectorXd& temperature);
 
     double time() const { return signals_.t; }
-    const Eigen::VectorXd& q() const { return signals_.q; }  ///< of the drives, at the beginning of the next step
-    const Eigen::VectorXd& qd() const { return signals_.qd; }   ///< of the last step, at its beginning
+    const Eigen::VectorXd& q() const { return signals_.q; }    ///< of the drives, at the beginning of the next step
+    const Eigen::VectorXd& qd() const { return signals_.qd; }  ///< of the last step, at its beginning
     const Eigen::VectorXd& qdd() const { return signals_.qdd; }
     /// What the declared model says of the last step: rigid links, rotors, viscous and Coulomb friction, offsets.
     const Eigen::VectorXd& declared_torque() const { return declared_; }

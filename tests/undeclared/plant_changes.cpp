@@ -131,9 +131,8 @@ signal_function dry_magnitude_of(const missing_effect& e) {
         };
     }
     if (form == "nonlinear_viscous_friction" && e.at("p") <= 1.0) {
-        return [a = value("Fp"), p = e.at("p"), j](const plant_signals& s) {
-            return a * std::pow(std::abs(s.qd[j]), p);
-        };
+        return
+            [a = value("Fp"), p = e.at("p"), j](const plant_signals& s) { return a * std::pow(std::abs(s.qd[j]), p); };
     }
     if (form == "viscous_logarithm") {
         return [a = value("Fp"), v0 = e.at("v0"), j](const plant_signals& s) {

@@ -80,7 +80,8 @@ void measure_torques(const history& past, const plant_changes& changes, const re
         Eigen::VectorXd clean(made.q.cols());
         for (int j = 0; j < made.q.cols(); ++j) {
             const double t = made.t[k];
-            clean[j] = changes.gain[j] * past.applied.mean(j, t - before - changes.delay[j], t + after - changes.delay[j]);
+            clean[j] =
+                changes.gain[j] * past.applied.mean(j, t - before - changes.delay[j], t + after - changes.delay[j]);
             made.effect(k, j) = clean[j] - past.declared.mean(j, t - before, t + after);
         }
         made.tau.row(k) = disturbance.disturbed(clean);

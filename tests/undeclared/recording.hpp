@@ -12,9 +12,9 @@ namespace idim::undeclared {
 /// How a robot is driven and logged.
 struct recording_settings {
     controller_settings controller;
-    double log_rate = 1000.0;  ///< [Hz], the controller's rate or a whole part of it
-    double step = 0.0005;      ///< of the plant [s]
-    bool commanded = false;    ///< logs the command that begins to act at t, and not the mean torque around t
+    double log_rate = 1000.0;     ///< [Hz], the controller's rate or a whole part of it
+    double step = 0.0005;         ///< of the plant [s]
+    bool commanded = false;       ///< logs the command that begins to act at t, and not the mean torque around t
     double regularisation = 0.0;  ///< of dry friction, share of the top speed; 0: joints really stick
     noise position, torque;
     bool reference_columns = false, temperature_columns = false;
@@ -24,9 +24,9 @@ struct recording_settings {
 /// What was logged, and what only the simulator knows. Rows are samples, columns joints.
 struct recording {
     Eigen::VectorXd t;
-    Eigen::MatrixXd q, tau;          ///< as measured
-    Eigen::MatrixXd clean_q, effect; ///< positions without noise; torque measured beyond what the declared model says
-    Eigen::MatrixXd torque_noise;    ///< what the measurement added
+    Eigen::MatrixXd q, tau;           ///< as measured
+    Eigen::MatrixXd clean_q, effect;  ///< positions without noise; torque measured beyond what the declared model says
+    Eigen::MatrixXd torque_noise;     ///< what the measurement added
     Eigen::MatrixXd reference, temperature;
 };
 
@@ -36,7 +36,6 @@ recording record(const arm& robot, const plant_changes& changes, const motion& r
 
 /// The log as CSV, the columns that settings ask for. `without_effect` takes the effect out of the torque: the same
 /// motion and noise as of a robot that the description describes.
-void write_log(const std::string& file, const recording& made, const recording_settings& settings,
-               bool without_effect);
+void write_log(const std::string& file, const recording& made, const recording_settings& settings, bool without_effect);
 
 }  // namespace idim::undeclared

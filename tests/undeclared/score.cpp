@@ -41,9 +41,8 @@ bool names(const missing_effect& truth, const named_effect& found) {
 }
 
 bool in_family(const missing_effect& truth, const found_effect& step) {
-    return names(truth, step.effect) ||
-           std::any_of(step.confusable_with.begin(), step.confusable_with.end(),
-                       [&](const named_effect& other) { return names(truth, other); });
+    return names(truth, step.effect) || std::any_of(step.confusable_with.begin(), step.confusable_with.end(),
+                                                    [&](const named_effect& other) { return names(truth, other); });
 }
 
 /// Amplitude of a pair of coefficients; its deviation to first order.
@@ -161,8 +160,8 @@ score score_of(const bench_case& made, const finding& found, const model_errors&
         return result;
     }
     result.steps = static_cast<int>(found.steps.size());
-    result.named_as = found.steps.empty() ? (found.unexplained.empty() ? "none" : "unexplained")
-                                          : found.steps.front().effect.name;
+    result.named_as =
+        found.steps.empty() ? (found.unexplained.empty() ? "none" : "unexplained") : found.steps.front().effect.name;
     for (const missing_effect& truth : made.effects) {
         result.effects.push_back(score_effect(truth, found));
     }

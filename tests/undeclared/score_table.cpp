@@ -53,7 +53,7 @@ class table_builder {
         for (const case_result& r : results_) {
             if (r.problem.empty() && where(r)) {
                 ++row.of;
-                row.good += what(r) ? 1 : 0;
+                row.good += (r.found.ran() ? what(r) : at_most) ? 1 : 0;  // no result keeps no bound
             }
         }
         rows.push_back(row);
@@ -115,9 +115,10 @@ void add_naming(table_builder& table) {
                 [](const case_result& r) { return r.scored.effects.front().right_joint; });
     table.counts("size within its 95 % interval", 0.9, single, sizes_of);
     table.counts("shape within 5 %, rho >= 0.5", 0.9, single_from(0.5), shapes_of);
-    table.cases("surplus effects beside the right one", 0.02, true,
-                [](const case_result& r) { return single(r) && first_named(r); },
-                [](const case_result& r) { return r.scored.surplus > 0; });
+    table.cases(
+        "surplus effects beside the right one", 0.02, true,
+        [](const case_result& r) { return single(r) && first_named(r); },
+        [](const case_result& r) { return r.scored.surplus > 0; });
 }
 
 void add_other_classes(table_builder& table) {
@@ -125,14 +126,15 @@ void add_other_classes(table_builder& table) {
     table.cases("form a little off: nearest family named", 0.9, false, is("near"), first_named);
     table.cases("form a little off: error within 1.5 of the true model's", 0.9, false, is("near"),
                 [](const case_result& r) { return r.true_model && r.scored.ratio <= 1.5; });
-    table.cases("error after within 1.1 of the true model's", 0.95, false,
-                [](const case_result& r) { return single(r); },
-                [](const case_result& r) { return r.true_model && r.scored.ratio <= 1.1; });
+    table.cases(
+        "error after within 1.1 of the true model's", 0.95, false, [](const case_result& r) { return single(r); },
+        [](const case_result& r) { return r.true_model && r.scored.ratio <= 1.1; });
     table.cases("error on untouched data above before", 0.0, true, ran,
                 [](const case_result& r) { return r.scored.worse; });
-    table.cases("inside the span: said so", 1.0, false,
-                [](const case_result& r) { return in_class(r, "span") && !r.made.effects.front().name.empty(); },
-                [](const case_result& r) { return r.scored.span_said; });
+    table.cases(
+        "inside the span: said so", 1.0, false,
+        [](const case_result& r) { return in_class(r, "span") && !r.made.effects.front().name.empty(); },
+        [](const case_result& r) { return r.scored.span_said; });
     table.cases("inside the span: any effect added", 0.05, true, is("span"),
                 [](const case_result& r) { return r.scored.steps > 0; });
     table.cases("outside the catalogue: right joint and signal", 0.8, false, is("outside"),
@@ -237,8 +239,8 @@ std::string report_text(const std::vector<case_result>& results) {
 nlohmann::json report_json(const std::vector<case_result>& results) {
     nlohmann::json table = nlohmann::json::array(), cases = nlohmann::json::array();
     for (const table_row& row : score_table(results)) {
-        table.push_back({{"claim", row.claim}, {"bound", row.bound}, {"count", row.good}, {"of", row.of},
-                         {"kept", row.kept()}});
+        table.push_back(
+            {{"claim", row.claim}, {"bound", row.bound}, {"count", row.good}, {"of", row.of}, {"kept", row.kept()}});
     }
     for (const case_result& r : results) {
         cases.push_back(json_of(r));

@@ -55,10 +55,9 @@ json read_json(const std::string& file) {
 
 finding run_refine(const tool& under_test, const bench_case& made, const std::string& folder) {
     finding result;
-    const std::string command =
-        fmt::format("'{}' refine robot.yaml{} --validation{} -o refined --json refined.json {}", under_test.command,
-                    logs("ident", made.identification.size()), logs("valid", made.validation.size()),
-                    under_test.options);
+    const std::string command = fmt::format("'{}' refine robot.yaml{} --validation{} -o refined --json refined.json {}",
+                                            under_test.command, logs("ident", made.identification.size()),
+                                            logs("valid", made.validation.size()), under_test.options);
     const outcome done = run(folder, under_test.time_limit, command, "refine.log");
     result.exit_status = done.status;
     result.seconds = done.seconds;
