@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "undeclared/standard_parameters.hpp"
+
 namespace idim::undeclared {
 
 namespace {
@@ -91,6 +93,11 @@ draft random_draft(const std::string& class_name, std::uint64_t seed, const std:
     return {made, scales, identification, validation, sampler("noise", seed)};
 }
 
+/// Whether the motor moves apart from its link.
+bool needs_rotor(const std::string& form) {
+    return form == "joint_elasticity" || form == "backlash";
+}
+
 /// One that the description would declare in the usual case: it is left out there, and in the arm itself.
 void undeclare(const missing_effect& effect, bench_case& made) {
     const std::size_t j = static_cast<std::size_t>(effect.joint);
@@ -103,7 +110,7 @@ void undeclare(const missing_effect& effect, bench_case& made) {
         one.coulomb = 0.0;
     } else if (effect.form == "rotor_inertia") {
         made.declared.rotor[j] = false;
-        one.rotor_inertia *= 0.02;  // no joint moves without any; the rest is the links'
+        one.rotor_inertia = 0.0;
     }
 }
 
@@ -111,7 +118,7 @@ void adapt_settings(const missing_effect& effect, recording_settings& settings) 
     if (effect.form == "thermal_friction") {
         settings.temperature_columns = effect.shape.count("T0") > 0;
     }
-    if (effect.form == "joint_elasticity" || effect.form == "backlash" || effect.form.starts_with("presliding")) {
+    if (needs_rotor(effect.form) || effect.form.starts_with("presliding")) {
         settings.step = 0.0002;
         settings.controller.bandwidth = std::min(settings.controller.bandwidth, 15.0);
         settings.position.size *= 0.5;
@@ -166,6 +173,9 @@ bool add_effect(draft& plan, const std::string& form, double rho, sampler& rando
         random_effect(form, made.robot, joint, plan.scales, plan.identification.front().duration(), random);
     draft tried = plan;
     undeclare(effect, tried.made);
+    if (needs_rotor(form) && tried.made.robot.drives[static_cast<std::size_t>(joint)].rotor_inertia == 0.0) {
+        return false;
+    }
     adapt_settings(effect, tried.made.settings);
     if (listed(span_forms(), form)) {  // of its usual size: nothing of it is outside
         tried.made.effects.push_back(effect);
@@ -314,6 +324,7 @@ void write_case(const bench_case& made, const std::string& folder) {
 void write_truth(const bench_case& made, const std::string& folder) {
     std::ofstream file(folder + "/truth.json");
     file << truth_json(made).dump(2) << '\n';
+    std::ofstream(folder + "/parameters.yaml") << standard_parameters_text(made.robot);
     write_recordings(made, folder + "/twin_", true);
 }
 

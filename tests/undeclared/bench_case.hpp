@@ -31,7 +31,8 @@ bench_case make_case(const std::string& class_name, std::uint64_t seed);
 
 /// robot.yaml, ident1.csv.. and valid1.csv..: all that a tool may see.
 void write_case(const bench_case& made, const std::string& folder);
-/// The same logs without the effects (`twin_ident1.csv`..), and truth.json.
+/// The same logs without the effects (`twin_ident1.csv`..), truth.json, and the arm's standard parameters
+/// (parameters.yaml).
 void write_truth(const bench_case& made, const std::string& folder);
 
 }  // namespace idim::undeclared

@@ -214,7 +214,7 @@ void plant::advance(const Eigen::VectorXd& tau, const Eigen::VectorXd& temperatu
     }
     for (const coupled_inertia& c : changes_.inertias) {
         M_(c.joint, c.other) += c.inertia;
-        M_(c.other, c.joint) += c.inertia;
+        M_(c.other, c.joint) += c.joint == c.other ? 0.0 : c.inertia;
     }
     compliance_ = M_.llt().solve(joint_matrix::Identity(robot_.dof(), robot_.dof()));
     collect_forces(tau);

@@ -26,9 +26,6 @@ signal_function torque_of(const missing_effect& e) {
     const auto value = [&](const char* name) { return e.linear.count(name) ? e.size(name) : 0.0; };
     const auto shape = [&](const char* name) { return e.shape.count(name) ? e.at(name) : 0.0; };
     const std::string& form = e.form;
-    if (form == "rotor_inertia") {
-        return [a = value("Ia"), j](const plant_signals& s) { return a * s.qdd[j]; };
-    }
     if (form == "viscous_friction") {
         return [a = value("Fv"), j](const plant_signals& s) { return a * s.qd[j]; };
     }
@@ -203,6 +200,8 @@ void add(const missing_effect& e, const arm& robot, plant_changes& changes) {
         changes.torques.push_back({a, [Fv, b](const plant_signals& s) { return Fv * s.qd[b]; }});
         changes.torques.push_back({b, [Fv, a](const plant_signals& s) { return Fv * s.qd[a]; }});
         changes.dry.push_back({{a, b}, [Fc](const plant_signals&) { return Fc; }});
+    } else if (e.form == "rotor_inertia") {
+        changes.inertias.push_back({e.joint, e.joint, e.size("Ia")});
     } else if (e.form == "base_tilt") {
         changes.gravity = tilted(robot.gravity, e.size("tilt_x"), e.size("tilt_y"));
     } else if (e.form == "payload" || e.form == "permanent_payload") {

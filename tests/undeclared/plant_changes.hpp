@@ -51,6 +51,7 @@ struct carried_load {
     double from, until;  ///< [s]
 };
 
+/// An entry of the inertia matrix and the one across its diagonal.
 struct coupled_inertia {
     int joint, other;
     double inertia;

@@ -11,7 +11,8 @@ namespace idim::undeclared {
 
 namespace {
 
-/// Integrals of signals that are constant over each step, for means over any interval.
+/// Integrals of signals of the plant's steps, for means over any interval. The torque of step k takes velocities from
+/// half a step before t_k to half a step after (plant.hpp), so that is the interval over which it acts.
 class running_integral {
   public:
     running_integral(int dof, int steps, double step) : step_(step), sum_(dof, steps + 1) { sum_.col(0).setZero(); }
@@ -27,7 +28,7 @@ class running_integral {
 
   private:
     double at(int joint, double t) const {
-        const double place = t / step_;
+        const double place = t / step_ + 0.5;
         const Eigen::Index k = std::clamp(static_cast<Eigen::Index>(std::floor(place)), Eigen::Index{0}, filled_ - 1);
         return sum_(joint, k) + (place - static_cast<double>(k)) * (sum_(joint, k + 1) - sum_(joint, k));
     }
@@ -74,15 +75,13 @@ void check(const Eigen::VectorXd& q, const joint_scales& scales) {
 /// Torque as the drive reports it: over a period around t or as it begins to act, late and scaled where so changed.
 void measure_torques(const history& past, const plant_changes& changes, const recording_settings& settings,
                      noise_source& disturbance, recording& made) {
-    const double before = settings.commanded ? 0.0 : 0.5 / settings.log_rate;
-    const double after = settings.commanded ? settings.step : before;
+    const double half = 0.5 * (settings.commanded ? settings.step : 1.0 / settings.log_rate);
     for (Eigen::Index k = 0; k < made.t.size(); ++k) {
         Eigen::VectorXd clean(made.q.cols());
         for (int j = 0; j < made.q.cols(); ++j) {
             const double t = made.t[k];
-            clean[j] =
-                changes.gain[j] * past.applied.mean(j, t - before - changes.delay[j], t + after - changes.delay[j]);
-            made.effect(k, j) = clean[j] - past.declared.mean(j, t - before, t + after);
+            clean[j] = changes.gain[j] * past.applied.mean(j, t - half - changes.delay[j], t + half - changes.delay[j]);
+            made.effect(k, j) = clean[j] - past.declared.mean(j, t - half, t + half);
         }
         made.tau.row(k) = disturbance.disturbed(clean);
         made.torque_noise.row(k) = made.tau.row(k) - clean.transpose();
