@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "undeclared/effect_strength.hpp"
+#include "undeclared/declared_span.hpp"
 
 namespace idim::undeclared {
 
@@ -18,7 +18,6 @@ struct bench_case {
     double rho = 0.0;              ///< asked for; 0 where nothing is missing
     std::vector<double> rho_made;  ///< of each effect alone, at the joint where it shows most
     std::vector<int> shows_at;     ///< that joint
-    double cutoff = 0.0;           ///< of the rows that rho was measured on [Hz]
     recording_settings settings;
     std::vector<recording> identification, validation;
 };
