@@ -84,11 +84,11 @@ void make_coupling_friction(const surroundings& s, missing_effect& effect) {
     effect.linear["Fcc"] = s.torque() * (effect.linear["Fvc"] > 0.0 ? 1.0 : -1.0);
 }
 
-/// Angles of the gravity vector about x and y of the base, or z where gravity lies along another axis.
+/// Angles of the gravity vector about the two axes of the base that it is not along.
 void make_tilt(const surroundings& s, missing_effect& effect) {
     const double direction = s.random.uniform(0.0, 2.0 * pi);
     effect.linear["tilt_x"] = 0.05 * std::cos(direction);
-    effect.linear["tilt_y"] = 0.05 * std::sin(direction);
+    effect.linear[s.robot.gravity.z() != 0.0 ? "tilt_y" : "tilt_z"] = 0.05 * std::sin(direction);
 }
 
 void make_payload(const surroundings& s, missing_effect& effect) {

@@ -168,9 +168,10 @@ carried_load load_of(const missing_effect& e) {
     return load;
 }
 
-Eigen::Vector3d tilted(const Eigen::Vector3d& gravity, double first, double second) {
-    const Eigen::Vector3d a = gravity.unitOrthogonal(), b = gravity.normalized().cross(a);
-    const Eigen::Vector3d turn = first * a + second * b;
+/// Gravity turned about the axes of the base that it is not along.
+Eigen::Vector3d tilted(const Eigen::Vector3d& gravity, const missing_effect& e) {
+    const auto angle = [&](const char* name) { return e.linear.count(name) ? e.size(name) : 0.0; };
+    const Eigen::Vector3d turn(angle("tilt_x"), angle("tilt_y"), angle("tilt_z"));
     return Eigen::AngleAxisd(turn.norm(), turn.normalized()) * gravity;
 }
 
@@ -203,7 +204,7 @@ void add(const missing_effect& e, const arm& robot, plant_changes& changes) {
     } else if (e.form == "rotor_inertia") {
         changes.inertias.push_back({e.joint, e.joint, e.size("Ia")});
     } else if (e.form == "base_tilt") {
-        changes.gravity = tilted(robot.gravity, e.size("tilt_x"), e.size("tilt_y"));
+        changes.gravity = tilted(robot.gravity, e);
     } else if (e.form == "payload" || e.form == "permanent_payload") {
         changes.loads.push_back(load_of(e));
     } else if (e.form == "presliding_hysteresis" || e.form == "presliding_damped") {

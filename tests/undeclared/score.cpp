@@ -63,6 +63,25 @@ void compare_shape(const std::string& name, const value_with_deviation& found, d
     result.compared += fmt::format(" {}={:.4g}({:.4g})", name, found.value, truth);
 }
 
+/// Sizes of the plant under the names and in the units that the catalogue has for them.
+std::map<std::string, double> shapes_of(const missing_effect& truth) {
+    std::map<std::string, double> shapes = truth.shape;
+    const auto rename = [&](const char* own, const char* name, auto convert) {
+        if (const auto found = truth.linear.find(own); found != truth.linear.end()) {
+            shapes[name] = convert(found->second);
+        }
+    };
+    const auto same = [](double value) { return value; };
+    rename("compliance", "K", [](double value) { return 1.0 / value; });
+    rename("gap", "b", same);
+    rename("stretch", "zs", same);
+    rename("gain", "Ke", same);
+    rename("Td", "Td", same);
+    rename("tilt_x", "tilt_x", same);
+    rename("tilt_y", "tilt_y", same);
+    return shapes;
+}
+
 /// Coefficients that both have. A pair of one wave is compared by its amplitude: its phase depends on the wave number.
 /// The load's ten parameters and the constant of a spring are partly the model's, so they are not compared.
 void compare_coefficients(const missing_effect& truth, const found_effect& step, scored_effect& result) {
@@ -75,13 +94,13 @@ void compare_coefficients(const missing_effect& truth, const found_effect& step,
             done.insert({cosine, sine});
         }
     }
+    const std::map<std::string, double> shapes = shapes_of(truth);
     for (const auto& [name, value] : truth.linear) {
-        if (!done.count(name) && step.parameters.count(name)) {
-            const bool is_delay = name == "Td";
-            (is_delay ? compare_shape : compare_size)(name, step.parameters.at(name), value, result);
+        if (!done.count(name) && !shapes.count(name) && step.parameters.count(name)) {
+            compare_size(name, step.parameters.at(name), value, result);
         }
     }
-    for (const auto& [name, value] : truth.shape) {
+    for (const auto& [name, value] : shapes) {
         if (!done.count(name) && step.parameters.count(name)) {
             compare_shape(name, step.parameters.at(name), value, result);
         }

@@ -111,6 +111,12 @@ void add_naming(table_builder& table) {
     for (const auto& [rho, limit] : {std::pair{2.0, 0.95}, {1.0, 0.95}, {0.5, 0.95}, {0.35, 0.9}, {0.2, 0.6}}) {
         table.cases(fmt::format("named, or its family, rho {}", rho), limit, false, single_at(rho), first_named);
     }
+    for (const auto& [low, high] : {std::pair{0.5, 1e9}, {0.35, 0.5}, {0.2, 0.35}, {0.0, 0.2}}) {
+        const auto within = [low = low, high = high](const case_result& r) {
+            return single(r) && r.scored.rho_in_tool_band >= low && r.scored.rho_in_tool_band < high;
+        };
+        table.cases(fmt::format("  by rho on the command's own rows: from {}", low), 0.0, false, within, first_named);
+    }
     table.cases("right joint, rho >= 0.35", 0.98, false, single_from(0.35),
                 [](const case_result& r) { return r.scored.effects.front().right_joint; });
     table.counts("size within its 95 % interval", 0.9, single, sizes_of);
