@@ -54,6 +54,11 @@ json candidates_json(const effect_trace& trace, const loaded_robot& robot) {
         json entry = place_json(candidate.place, robot);
         entry["p_value"] = candidate.p_value;
         entry["explained_fraction"] = candidate.explained_fraction;
+        entry["f_statistic"] = finite(candidate.f_statistic);
+        entry["correlation_length"] = candidate.correlation_length;
+        entry["held_back_z"] = finite(candidate.held_back_z);
+        entry["moving_z"] = finite(candidate.moving_z);
+        entry["values"] = candidate.values;
         entry["objection"] = candidate.objection.empty() ? json(nullptr) : json(candidate.objection);
         list.push_back(entry);
     }

@@ -56,7 +56,12 @@ struct trace_candidate {
     effect_place place;
     double p_value = 1.0;
     double explained_fraction = 0.0;
-    std::string objection;  ///< why it is not in the model
+    double f_statistic = 0.0;         ///< partial F on effective rows
+    double correlation_length = 1.0;  ///< of the residual it leaves [rows]
+    double held_back_z = 0.0;         ///< gain on data held back in its own deviations, all rows
+    double moving_z = 0.0;            ///< the same away from reversals
+    std::vector<double> values;       ///< linear coefficients, then shapes
+    std::string objection;            ///< why it is not in the model
 };
 
 /// Dependence of the residual on signals that no known effect fits.

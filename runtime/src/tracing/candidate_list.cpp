@@ -27,10 +27,11 @@ double first_compliance(const trace_input& input, int joint) {
 void add_at_joints(const trace_input& input, const idim_effect& effect, const Eigen::VectorXd& chi,
                    std::vector<candidate_pointer>& list) {
     const idim_model_interface& model = *input.model;
+    const double period = 1.0 / input.fitted.front().rate;
     for (int j = 0; j < model.dof; ++j) {
         switch (effect.kind) {
             case IDIM_EFFECT_DELAY:
-                list.push_back(delay_candidate(j, first_delay / input.fitted.front().rate));
+                list.push_back(delay_candidate(j, first_delay * period, period));
                 break;
             case IDIM_EFFECT_GAIN:
                 list.push_back(gain_candidate(j));

@@ -19,6 +19,7 @@ struct linear_bound {
     std::string name;
     std::string unit;
     double min = -std::numeric_limits<double>::infinity();
+    double negligible = 0.0;  ///< a smaller value is none of the robot's
 };
 
 /// A coefficient that enters nonlinearly and is searched in [low, high].

@@ -22,6 +22,7 @@ namespace {
 constexpr double first_alignment = 0.5;  ///< of a sample: where its linearisation starts
 constexpr int linearisations = 3;
 constexpr double implausible_z = 2.0;
+constexpr double error_margin = 1e-3;  ///< of the error on data held back, see effect_tracer
 
 error_summary errors_of(const trace_fit& fit, bool held_back) {
     error_summary summary;
@@ -168,10 +169,18 @@ class tracer {
         result_.not_identifiable = all.within_span;
         result_.candidates.clear();
         for (const tried_candidate& tried : all.candidates) {
-            const effect_candidate& candidate = *tried.evidence.term.candidate;
+            const effect_evidence& evidence = tried.evidence;
+            const effect_candidate& candidate = *evidence.term.candidate;
+            std::vector<double> values(evidence.coefficient.begin(), evidence.coefficient.end());
+            values.insert(values.end(), evidence.term.shape.begin(), evidence.term.shape.end());
             result_.candidates.push_back({{candidate.effect, candidate.joints, candidate.from},
                                           tried.p_value,
-                                          tried.evidence.explained_fraction,
+                                          evidence.explained_fraction,
+                                          evidence.f_statistic,
+                                          evidence.correlation_length,
+                                          evidence.z_all(),
+                                          evidence.z_moving(),
+                                          std::move(values),
                                           tried.objection});
         }
         return all;
@@ -185,7 +194,7 @@ class tracer {
             std::vector<effect_term> terms = fit.terms();
             terms.push_back(all.candidates[i].evidence.term);
             trace_fit with = settled(fit_with_own_noise(logs_, terms, &fit.noise()));
-            if (errors_of(with, true).relative_error > errors_of(fit, true).relative_error ||
+            if (errors_of(with, true).relative_error > (1.0 + error_margin) * errors_of(fit, true).relative_error ||
                 makes_implausible(fit, with)) {
                 continue;
             }

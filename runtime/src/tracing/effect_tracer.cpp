@@ -17,6 +17,9 @@ constexpr double least_moving_z = 2.0;         ///< one-sided 2.3 %, away from r
 constexpr double least_explained = 0.015;      ///< of the residual variance on data not fitted to
 constexpr double indistinguishable_z = 2.0;    ///< two-sided 5 %
 constexpr double look_alike = 0.8;             ///< correlation of what two candidates predict outside the span
+/// Squared errors of a log held back may rise by this part: other joints' parameters move within their deviations, and one
+/// joint with a large torque must not decide over all others.
+constexpr double error_margin = 2e-3;
 constexpr double needed_z = 1.0;               ///< a term that gains less on data not fitted to has become needless
 
 /// Torque of the effect at one joint over the fitted logs must not exceed what the joint has at all.
@@ -42,6 +45,16 @@ bool is_plausible(const trace_fit& fit, const effect_evidence& evidence) {
     return true;
 }
 
+bool is_negligible(const effect_evidence& evidence) {
+    const std::vector<linear_bound>& linear = evidence.term.candidate->linear;
+    for (std::size_t c = 0; c < linear.size(); ++c) {
+        if (std::abs(evidence.coefficient[static_cast<Eigen::Index>(c)]) >= linear[c].negligible) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /// Squared residual of a log held back, all joints, not weighted [(N*m)^2].
 double squared_error(const std::vector<Eigen::VectorXd>& residual) {
     double sum = 0.0;
@@ -54,7 +67,7 @@ double squared_error(const std::vector<Eigen::VectorXd>& residual) {
 bool raises_an_error(const trace_fit& fit, const effect_evidence& evidence) {
     const log_series left = residual_with(fit, evidence);
     for (std::size_t l = 0; l < left.size(); ++l) {
-        if (fit.logs()[l].held_back && squared_error(left[l]) > squared_error(fit.residual()[l])) {
+        if (fit.logs()[l].held_back && squared_error(left[l]) > (1.0 + error_margin) * squared_error(fit.residual()[l])) {
             return true;
         }
     }
@@ -82,6 +95,9 @@ std::string objection_to(const trace_fit& fit, const tried_candidate& tried) {
     }
     if (raises_an_error(fit, evidence)) {
         return "raises the error of a log it was not fitted to";
+    }
+    if (is_negligible(evidence)) {
+        return "smaller than what sampling makes";
     }
     if (!is_plausible(fit, evidence)) {
         return "larger than the torque of its joint";
@@ -136,7 +152,8 @@ effect_survey survey(const trace_fit& fit, const std::vector<candidate_pointer>&
     result.candidates.resize(found.size());
     parallel_for(found.size(), [&](std::size_t i) {
         tried_candidate& tried = result.candidates[i];
-        tried.p_value = corrected(found[i].p_value, result.tests);
+        const double own = corrected(found[i].p_value, found[i].shapes_tried);
+        tried.p_value = corrected(own, static_cast<double>(candidates.size()));
         if (tried.p_value < promising) {
             test_on_held_back(fit, found[i]);
         }
