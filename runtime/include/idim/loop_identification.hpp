@@ -44,13 +44,31 @@ observation observe_steady(const loop_experiment& experiment, const closed_loop&
 /// for a joint that has none of the three.
 Eigen::VectorXd regular_start(const idim_model_interface& model);
 
+/// An identification with the regressor along the motion simulated with its parameters, on the measured rows and with
+/// the measured torque; without blocks if there are no parameters.
+struct loop_estimate {
+    estimate fit;
+    observation along;
+};
+
 /// Identifies from `rows` (observe_steady) and simulated motions, starting with `start` [b]. The logs are simulated
 /// side by side on all cores. Rows of joint j are divided by the deviation of that joint's own residual [IV 20].
 ///
 /// The result has the iterations, a covariance robust to autocorrelation (sandwich.hpp: around the instruments), ranks
 /// and errors on the measured rows. A loop that cannot be simulated, instruments that lose rank and iterations that do
 /// not settle are results: chi empty, the message naming iteration, joint and what to try.
-estimate identify_in_loop(const loop_experiment& experiment, const closed_loop& loop, const observation& rows,
-                          loop_method method, const Eigen::VectorXd& start, const loop_options& options = {});
+loop_estimate identify_in_loop(const loop_experiment& experiment, const closed_loop& loop, const observation& rows,
+                               loop_method method, const Eigen::VectorXd& start, const loop_options& options = {});
+
+/// A model judged by simulating it against a log, which should have no part in its identification.
+struct loop_validation {
+    iteration judged;         ///< distances of the motion, errors of the torque along the measured motion
+    error_summary simulated;  ///< errors of the torque along the simulated one
+    std::string failure;      ///< why there is no simulation; then the rest is empty
+};
+
+/// Simulates the logs of `experiment` with chi. rows: observe_steady.
+loop_validation validate_in_loop(const loop_experiment& experiment, const closed_loop& loop, const observation& rows,
+                                 const Eigen::VectorXd& chi);
 
 }  // namespace idim

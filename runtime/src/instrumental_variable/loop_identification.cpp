@@ -58,6 +58,11 @@ estimate failure(const loop_simulator& simulator, std::vector<iteration> steps, 
     return result;
 }
 
+loop_estimate without_parameters(const loop_simulator& simulator, const std::vector<iteration>& steps,
+                                 const std::string& what) {
+    return {failure(simulator, steps, what), {}};
+}
+
 std::string failed_at(std::size_t step, const std::string& what) {
     return fmt::format(
         "iteration {}: {}; try a regular start, a higher bandwidth of the simulated loop, or more exciting motion",
@@ -138,7 +143,7 @@ void add_deviations(const observation& rows, const observation& instruments, con
 
 /// What is known once the iterations have settled on chi with the instruments of chi itself.
 estimate settled(const loop_simulator& simulator, const observation& regressor, const observation& instruments,
-                 std::vector<iteration> steps) {
+                 std::vector<iteration> steps, loop_method method) {
     const Eigen::VectorXd chi = steps.back().chi;
     const instrument_step last = solve(regressor, instruments);
     if (last.chi.size() == 0) {
@@ -155,11 +160,12 @@ estimate settled(const loop_simulator& simulator, const observation& regressor, 
     result.iterations = std::move(steps);
     result.residual = errors(simulator.rows(), chi);
     add_deviations(regressor, instruments, last, chi, result);
-    result.message = fmt::format(
-        "{} parameters from {} rows in {} steps; the spans of instruments and regressor are at "
-        "most {:.1f} degrees apart",
-        chi.size(), result.samples, result.iterations.size() - 1,
-        std::acos(std::min(last.qr.smallest_cosine, 1.0)) * 180.0 / M_PI);
+    result.message =
+        fmt::format("{} parameters from {} rows in {} steps", chi.size(), result.samples, result.iterations.size() - 1);
+    if (method == loop_method::iv) {
+        result.message += fmt::format("; the spans of instruments and regressor are at most {:.1f} degrees apart",
+                                      std::acos(std::min(last.qr.smallest_cosine, 1.0)) * 180.0 / M_PI);
+    }
     return result;
 }
 
@@ -173,18 +179,23 @@ void check_start(const loop_experiment& experiment, const observation& rows, con
 
 }  // namespace
 
-estimate identify_in_loop(const loop_experiment& experiment, const closed_loop& loop, const observation& rows,
-                          loop_method method, const Eigen::VectorXd& start, const loop_options& options) {
+loop_estimate identify_in_loop(const loop_experiment& experiment, const closed_loop& loop, const observation& rows,
+                               loop_method method, const Eigen::VectorXd& start, const loop_options& options) {
     check_start(experiment, rows, start);
     const loop_simulator simulator(experiment, loop, rows);
     if (rows.rows() <= rows.n_base) {
-        return failure(simulator, {},
-                       fmt::format("{} rows are left without rests and the transient of the simulated loop, for {} "
-                                   "parameters; record longer, or simulate a higher bandwidth",
-                                   rows.rows(), rows.n_base));
+        return without_parameters(
+            simulator, {},
+            fmt::format("{} rows are left without rests and the transient of the simulated loop, for {} "
+                        "parameters; record longer, or simulate a higher bandwidth",
+                        rows.rows(), rows.n_base));
     }
     if (method == loop_method::cloe) {
-        return fit_positions(simulator, start, options);
+        estimate fit = fit_positions(simulator, start, options);
+        if (fit.chi.size() == 0) {
+            return {fit, {}};
+        }
+        return {fit, simulator.regressor_along(simulator.simulate({fit.chi}).front().logs)};
     }
     std::vector<iteration> steps;
     Eigen::VectorXd chi = start;
@@ -193,36 +204,51 @@ estimate identify_in_loop(const loop_experiment& experiment, const closed_loop& 
         const simulated_motions motions = simulator.simulate({chi}).front();
         if (!motions.failure.empty()) {
             steps.push_back({chi, errors(rows, chi).relative_error});
-            return failure(simulator, steps, failed_at(k, motions.failure));
+            return without_parameters(simulator, steps, failed_at(k, motions.failure));
         }
         const observation along = simulator.regressor_along(motions.logs);
         steps.push_back(simulator.judge(chi, motions.logs, along));
         const std::size_t joint = farthest_joint(steps.back());
         const double distance = steps.back().to_measured[joint].q;
         if (!(distance <= options.farthest)) {
-            return failure(simulator, steps,
-                           failed_at(k, fmt::format("the simulated motion of joint {} is {:.0f} % away from the "
-                                                    "measured one",
-                                                    experiment.model.joint_names[joint], 100.0 * distance)));
+            return without_parameters(
+                simulator, steps,
+                failed_at(k, fmt::format("the simulated motion of joint {} is {:.0f} % away from the "
+                                         "measured one",
+                                         experiment.model.joint_names[joint], 100.0 * distance)));
         }
         const observation& regressor = method == loop_method::iv ? rows : along;
         if (has_settled(along, steps, options.tolerance)) {
-            return settled(simulator, regressor, along, steps);
+            estimate fit = settled(simulator, regressor, along, steps, method);
+            return {fit, fit.chi.size() > 0 ? along : observation()};
         }
         if (static_cast<int>(k) == options.most_iterations) {
-            return failure(simulator, steps,
-                           failed_at(k, fmt::format("the parameters still change; the simulated motion of joint {} is "
-                                                    "farthest from the measured one, {:.1f} %",
-                                                    experiment.model.joint_names[joint], 100.0 * distance)));
+            return without_parameters(
+                simulator, steps,
+                failed_at(k, fmt::format("the parameters still change; the simulated motion of joint {} is "
+                                         "farthest from the measured one, {:.1f} %",
+                                         experiment.model.joint_names[joint], 100.0 * distance)));
         }
         const instrument_step step = solve(regressor, along);
         if (step.chi.size() == 0) {
             estimate lost = failure(simulator, steps, failed_at(k, lost_rank(experiment.model, step.qr)));
             lost.rank = std::min(step.qr.regressor.rank, step.qr.instruments.rank);
-            return lost;
+            return {lost, {}};
         }
         chi = step.chi;
     }
+}
+
+loop_validation validate_in_loop(const loop_experiment& experiment, const closed_loop& loop, const observation& rows,
+                                 const Eigen::VectorXd& chi) {
+    check_start(experiment, rows, chi);
+    const loop_simulator simulator(experiment, loop, rows);
+    const simulated_motions motions = simulator.simulate({chi}).front();
+    if (!motions.failure.empty()) {
+        return {{}, {}, motions.failure};
+    }
+    const observation along = simulator.regressor_along(motions.logs);
+    return {simulator.judge(chi, motions.logs, along), errors(along, chi), {}};
 }
 
 }  // namespace idim
