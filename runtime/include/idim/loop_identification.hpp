@@ -22,9 +22,10 @@ struct loop_options {
     int most_iterations = 20;
     /// Stop when |Y - W_s chi_k| changes by less than this part from one iteration to the next [IV 27].
     double tolerance = 0.01;
-    /// Diverged when the simulated motion of a joint is farther than this from the measured one (relative, position):
-    /// assumption [IV 35] does not hold.
-    double farthest = 1.0;
+    /// Instruments are weak, and the result is refused, when r cos^2 / sin^2 of the largest angle between the spans of
+    /// instruments and regressor is below this, r the number of rows: what F is of the first stage along the direction
+    /// that they explain least; 10 by the rule of Staiger and Stock 1997, Econometrica 65(3).
+    double weakest_instruments = 10.0;
 };
 
 /// What was recorded, with the filter that regressor, instruments and torque share.

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
+#include <limits>
 
 namespace idim {
 
@@ -35,6 +36,12 @@ rank_report rank_of(const Eigen::MatrixXd& R, const Eigen::VectorXd& column_norm
 }
 
 }  // namespace
+
+double instrument_qr::first_stage(Eigen::Index rows) const {
+    const double square = smallest_cosine * smallest_cosine;
+    const double rest = 1.0 - square;
+    return rest > 0.0 ? static_cast<double>(rows) * square / rest : std::numeric_limits<double>::infinity();
+}
 
 bool instrument_qr::full_rank() const {
     const auto b = static_cast<int>(S.rows());
@@ -82,7 +89,10 @@ instrument_qr factor(const observation& rows, const observation& instruments, co
     result.instruments = rank_of(result.R_V, result.instrument_norm);
     if (result.regressor.rank == b && result.instruments.rank == b) {
         const Eigen::MatrixXd product = R_W.triangularView<Eigen::Upper>().solve<Eigen::OnTheRight>(result.S);
-        result.smallest_cosine = Eigen::JacobiSVD<Eigen::MatrixXd>(product).singularValues().minCoeff();
+        const Eigen::JacobiSVD<Eigen::MatrixXd> svd(product, Eigen::ComputeFullV);
+        result.smallest_cosine = svd.singularValues()[b - 1];
+        const Eigen::VectorXd direction = R_W.triangularView<Eigen::Upper>().solve(svd.matrixV().col(b - 1));
+        direction.cwiseAbs().maxCoeff(&result.least_explained);
     }
     return result;
 }

@@ -21,6 +21,10 @@ struct instrument_qr {
     double smallest_cosine = 0.0;                  ///< of the angles between the spans of V and W; 0 where a rank lacks
     std::vector<Eigen::MatrixXd> joint_triangles;  ///< per joint: triangle of its own weighted, scaled V, b x b
 
+    Eigen::Index least_explained = 0;  ///< parameter with the largest part in the direction of that largest angle
+
+    /// r cos^2 / sin^2 of the largest angle, at least as large as any F of the first stage along it; r rows.
+    double first_stage(Eigen::Index rows) const;
     bool full_rank() const;
     /// (Q_V'W)^-1 Q_V'Y; needs full rank.
     Eigen::VectorXd solve() const;

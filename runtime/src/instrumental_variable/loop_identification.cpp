@@ -92,6 +92,12 @@ std::size_t farthest_joint(const iteration& step) {
                                     step.to_measured.begin());
 }
 
+std::string how_far(const loop_simulator& simulator, const iteration& step) {
+    const std::size_t joint = farthest_joint(step);
+    return fmt::format("; the simulated motion of joint {} is farthest from the measured one, {:.2g} %",
+                       simulator.model().joint_names[joint], 100.0 * step.to_measured[joint].q);
+}
+
 /// |W_s (chi - before)| / |Y - W_s chi|: how far the last step moved what is predicted, in units of what is not.
 double last_move(const observation& along, const iteration& now, const iteration& before) {
     observation moved = along;
@@ -143,11 +149,16 @@ void add_deviations(const observation& rows, const observation& instruments, con
 
 /// What is known once the iterations have settled on chi with the instruments of chi itself.
 estimate settled(const loop_simulator& simulator, const observation& regressor, const observation& instruments,
-                 std::vector<iteration> steps, loop_method method) {
+                 std::vector<iteration> steps, loop_method method, const loop_options& options) {
     const Eigen::VectorXd chi = steps.back().chi;
     const instrument_step last = solve(regressor, instruments);
     if (last.chi.size() == 0) {
         return failure(simulator, steps, failed_at(steps.size() - 1, lost_rank(simulator.model(), last.qr)));
+    }
+    if (last.qr.first_stage(regressor.rows()) < options.weakest_instruments) {
+        const std::string weak = fmt::format("the instruments hardly tell of {}",
+                                             simulator.model().parameter_names[last.qr.least_explained]);
+        return failure(simulator, steps, failed_at(steps.size() - 1, weak + how_far(simulator, steps.back())));
     }
     estimate result;
     result.chi = chi;
@@ -167,6 +178,38 @@ estimate settled(const loop_simulator& simulator, const observation& regressor, 
                                       std::acos(std::min(last.qr.smallest_cosine, 1.0)) * 180.0 / M_PI);
     }
     return result;
+}
+
+/// iv and didim: the measured regressor, or that of the simulated motion, against instruments of the latter.
+loop_estimate fit_torques(const loop_simulator& simulator, loop_method method, Eigen::VectorXd chi,
+                          const loop_options& options) {
+    std::vector<iteration> steps;
+    for (std::size_t k = 0;; ++k) {
+        const simulated_motions motions = simulator.simulate({chi}).front();
+        if (!motions.failure.empty()) {
+            steps.push_back({chi, errors(simulator.rows(), chi).relative_error});
+            return without_parameters(simulator, steps, failed_at(k, motions.failure));
+        }
+        const observation along = simulator.regressor_along(motions.logs);
+        const observation& regressor = method == loop_method::iv ? simulator.rows() : along;
+        steps.push_back(simulator.judge(chi, motions.logs, along));
+        if (has_settled(along, steps, options.tolerance)) {
+            estimate fit = settled(simulator, regressor, along, steps, method, options);
+            return {fit, fit.chi.size() > 0 ? along : observation()};
+        }
+        if (static_cast<int>(k) == options.most_iterations) {
+            const std::string what = "the parameters still change" + how_far(simulator, steps.back());
+            return without_parameters(simulator, steps, failed_at(k, what));
+        }
+        const instrument_step step = solve(regressor, along);
+        if (step.chi.size() == 0) {
+            loop_estimate lost =
+                without_parameters(simulator, steps, failed_at(k, lost_rank(simulator.model(), step.qr)));
+            lost.fit.rank = std::min(step.qr.regressor.rank, step.qr.instruments.rank);
+            return lost;
+        }
+        chi = step.chi;
+    }
 }
 
 void check_start(const loop_experiment& experiment, const observation& rows, const Eigen::VectorXd& start) {
@@ -197,46 +240,7 @@ loop_estimate identify_in_loop(const loop_experiment& experiment, const closed_l
         }
         return {fit, simulator.regressor_along(simulator.simulate({fit.chi}).front().logs)};
     }
-    std::vector<iteration> steps;
-    Eigen::VectorXd chi = start;
-    for (;;) {
-        const std::size_t k = steps.size();
-        const simulated_motions motions = simulator.simulate({chi}).front();
-        if (!motions.failure.empty()) {
-            steps.push_back({chi, errors(rows, chi).relative_error});
-            return without_parameters(simulator, steps, failed_at(k, motions.failure));
-        }
-        const observation along = simulator.regressor_along(motions.logs);
-        steps.push_back(simulator.judge(chi, motions.logs, along));
-        const std::size_t joint = farthest_joint(steps.back());
-        const double distance = steps.back().to_measured[joint].q;
-        if (!(distance <= options.farthest)) {
-            return without_parameters(
-                simulator, steps,
-                failed_at(k, fmt::format("the simulated motion of joint {} is {:.0f} % away from the "
-                                         "measured one",
-                                         experiment.model.joint_names[joint], 100.0 * distance)));
-        }
-        const observation& regressor = method == loop_method::iv ? rows : along;
-        if (has_settled(along, steps, options.tolerance)) {
-            estimate fit = settled(simulator, regressor, along, steps, method);
-            return {fit, fit.chi.size() > 0 ? along : observation()};
-        }
-        if (static_cast<int>(k) == options.most_iterations) {
-            return without_parameters(
-                simulator, steps,
-                failed_at(k, fmt::format("the parameters still change; the simulated motion of joint {} is "
-                                         "farthest from the measured one, {:.1f} %",
-                                         experiment.model.joint_names[joint], 100.0 * distance)));
-        }
-        const instrument_step step = solve(regressor, along);
-        if (step.chi.size() == 0) {
-            estimate lost = failure(simulator, steps, failed_at(k, lost_rank(experiment.model, step.qr)));
-            lost.rank = std::min(step.qr.regressor.rank, step.qr.instruments.rank);
-            return {lost, {}};
-        }
-        chi = step.chi;
-    }
+    return fit_torques(simulator, method, start, options);
 }
 
 loop_validation validate_in_loop(const loop_experiment& experiment, const closed_loop& loop, const observation& rows,

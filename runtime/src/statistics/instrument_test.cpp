@@ -98,11 +98,12 @@ instrument_test durbin_wu_hausman(const observation& rows, const observation& in
     }
     Eigen::Index most = 0;
     const double largest = result.bias_in_deviations.cwiseAbs().maxCoeff(&most);
+    const bool correlated = result.p_value < 0.05;
     result.message = fmt::format(
-        "the measured regressor {} (p = {:.2g} on {} independent rows); largest bias of "
-        "least squares {:.1f} deviations, {:.2f} %",
-        result.p_value < 0.05 ? "is correlated with the error" : "is not seen to be correlated with the error",
-        result.p_value, result.rows, largest, result.bias_percent[most]);
+        "the measured regressor is {}correlated with the error (p = {:.2g} on {} independent rows){}; the largest bias "
+        "of least squares is {:.1f} deviations, {:.2f} %",
+        correlated ? "" : "not seen to be ", result.p_value, result.rows,
+        correlated && largest < 1.0 ? ", to no effect" : "", largest, result.bias_percent[most]);
     return result;
 }
 
