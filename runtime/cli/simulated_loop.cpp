@@ -55,13 +55,28 @@ Eigen::MatrixXd positions_at(const idim::log& motion, const Eigen::VectorXd& t) 
     return q;
 }
 
+/// Linear interpolation; their own values at their own times.
+Eigen::MatrixXd values_at(const Eigen::VectorXd& from, const Eigen::MatrixXd& values, const Eigen::VectorXd& t) {
+    Eigen::MatrixXd result(t.size(), values.cols());
+    Eigen::Index k = 0;
+    for (Eigen::Index i = 0; i < t.size(); ++i) {
+        while (k + 2 < from.size() && from[k + 1] <= t[i]) {
+            ++k;
+        }
+        const double s = std::clamp((t[i] - from[k]) / (from[k + 1] - from[k]), 0.0, 1.0);
+        result.row(i) = (1.0 - s) * values.row(k) + s * values.row(k + 1);
+    }
+    return result;
+}
+
 idim::log follow(const idim_model_interface& model, const Eigen::VectorXd& chi, const pd_cascade& law,
                  const idim::log& reference) {
     const Eigen::VectorXd quiet = Eigen::VectorXd::Zero(model.dof);
-    const idim::log truth = simulate(model, chi, law, reference, {quiet, quiet, 1}, substeps).truth;
+    const simulated_motion simulated = simulate(model, chi, law, reference, {quiet, quiet, 1}, substeps);
     idim::log motion;
     motion.t = reference.t;
-    motion.q = positions_at(truth, reference.t);
+    motion.q = positions_at(simulated.truth, reference.t);
+    motion.tau = values_at(simulated.measured.t, simulated.measured.tau, reference.t);
     return motion;
 }
 

@@ -26,6 +26,7 @@ struct loop_options {
     /// instruments and regressor is below this, r the number of rows: what F is of the first stage along the direction
     /// that they explain least; 10 by the rule of Staiger and Stock 1997, Econometrica 65(3).
     double weakest_instruments = 10.0;
+    bool corrects_processing = true;
 };
 
 /// What was recorded, with the filter that regressor, instruments and torque share.

@@ -180,10 +180,23 @@ estimate settled(const loop_simulator& simulator, const observation& regressor, 
     return result;
 }
 
+/// Whether the step to `next` leads back to where the last but one came from, and no nearer: at a slow reversal the
+/// simulated sign of a velocity can flip with chi, and then no point is its own solution. Half a step settles between.
+bool alternates(const std::vector<iteration>& steps, const Eigen::VectorXd& next) {
+    if (steps.size() < 3) {
+        return false;
+    }
+    const Eigen::VectorXd& now = steps.back().chi;
+    const Eigen::VectorXd last = (now - steps[steps.size() - 2].chi).cwiseQuotient(now.cwiseAbs().cwiseMax(1e-12));
+    const Eigen::VectorXd ahead = (next - now).cwiseQuotient(now.cwiseAbs().cwiseMax(1e-12));
+    return ahead.dot(last) < -0.5 * last.squaredNorm();
+}
+
 /// iv and didim: the measured regressor, or that of the simulated motion, against instruments of the latter.
 loop_estimate fit_torques(const loop_simulator& simulator, loop_method method, Eigen::VectorXd chi,
                           const loop_options& options) {
     std::vector<iteration> steps;
+    double part = 1.0;  // of the way to the solution
     for (std::size_t k = 0;; ++k) {
         const simulated_motions motions = simulator.simulate({chi}).front();
         if (!motions.failure.empty()) {
@@ -201,14 +214,15 @@ loop_estimate fit_torques(const loop_simulator& simulator, loop_method method, E
             const std::string what = "the parameters still change" + how_far(simulator, steps.back());
             return without_parameters(simulator, steps, failed_at(k, what));
         }
-        const instrument_step step = solve(regressor, along);
+        const instrument_step step = solve(options.corrects_processing ? simulator.corrected(regressor, motions.logs, along, chi) : regressor, along);
         if (step.chi.size() == 0) {
             loop_estimate lost =
                 without_parameters(simulator, steps, failed_at(k, lost_rank(simulator.model(), step.qr)));
             lost.fit.rank = std::min(step.qr.regressor.rank, step.qr.instruments.rank);
             return lost;
         }
-        chi = step.chi;
+        part *= alternates(steps, step.chi) ? 0.5 : 1.0;
+        chi += part * (step.chi - chi);
     }
 }
 

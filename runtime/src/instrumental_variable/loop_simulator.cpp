@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "idim/input_error.hpp"
+#include "idim/zero_phase_filter.hpp"
 #include "parallel.hpp"
 
 namespace idim {
@@ -98,6 +99,22 @@ observation loop_simulator::regressor_along(const std::vector<filtered_samples>&
         along.blocks[i].Y = rows_.blocks[i].Y;
     }
     return along;
+}
+
+observation loop_simulator::corrected(const observation& regressor, const std::vector<filtered_samples>& motions,
+                                      const observation& along, const Eigen::VectorXd& chi) const {
+    observation rows = regressor;
+    for (std::size_t i = 0; i < rows.blocks.size(); ++i) {
+        if (motions[i].tau.size() == 0) {
+            continue;
+        }
+        const Eigen::MatrixXd tau = decimate(motions[i].tau, experiment_.filter.decimation);
+        for (std::size_t j = 0; j < kept_[i].size(); ++j) {
+            const Eigen::VectorXd simulated = tau(kept_[i][j], static_cast<Eigen::Index>(j));
+            rows.blocks[i].Y[j] -= simulated - along.blocks[i].W[j] * chi;
+        }
+    }
+    return rows;
 }
 
 iteration loop_simulator::judge(const Eigen::VectorXd& chi, const std::vector<filtered_samples>& motions,

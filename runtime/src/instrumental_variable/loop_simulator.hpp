@@ -22,6 +22,10 @@ class loop_simulator {
     std::vector<simulated_motions> simulate(const std::vector<Eigen::VectorXd>& points) const;
     /// Regressor along the motions on the rows of the measured one, with the measured torque.
     observation regressor_along(const std::vector<filtered_samples>& motions) const;
+    /// Torque that was measured less what sampling, differences and filters make of the simulated one beside its model,
+    /// Y - (Y_s - W_s chi): rows of the measured regressor for iv. Y - 0 where the simulation gives no torque.
+    observation corrected(const observation& regressor, const std::vector<filtered_samples>& motions,
+                          const observation& along, const Eigen::VectorXd& chi) const;
     /// Errors and distances of chi, `along` being regressor_along of its motions.
     iteration judge(const Eigen::VectorXd& chi, const std::vector<filtered_samples>& motions,
                     const observation& along) const;
