@@ -258,6 +258,8 @@ void add_identify_command(CLI::App& app, action& chosen) {
         ->add_option("--tolerance", options->simulation.options.tolerance,
                      "they end when what the simulated model leaves of the torque changes by less than this part")
         ->check(CLI::PositiveNumber);
+    command->add_flag("--correct-processing", options->simulation.options.corrects_processing,
+                      "take off what sampling and filters do to the torque of the simulation; not for cloe");
     add_loop_options(*command, options->simulation.loop);
     add_filter_options(*command, options->filter);
     command->add_option("--truth", options->truth, "parameters that were simulated, to compare with");

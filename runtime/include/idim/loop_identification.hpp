@@ -26,7 +26,11 @@ struct loop_options {
     /// instruments and regressor is below this, r the number of rows: what F is of the first stage along the direction
     /// that they explain least; 10 by the rule of Staiger and Stock 1997, Econometrica 65(3).
     double weakest_instruments = 10.0;
-    bool corrects_processing = true;
+    /// Takes from the measured torque what sampling, differences and filters make of the simulated torque beside its
+    /// own model, Y_s - W_s chi_k: the jumps of friction, smeared otherwise in qdd than in sign(qd), bias the paper's
+    /// estimate by some 0.1 %, more than its deviation in long records. Needs a simulation that logs the torque as the
+    /// robot does.
+    bool corrects_processing = false;
 };
 
 /// What was recorded, with the filter that regressor, instruments and torque share.

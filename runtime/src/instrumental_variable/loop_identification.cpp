@@ -214,7 +214,8 @@ loop_estimate fit_torques(const loop_simulator& simulator, loop_method method, E
             const std::string what = "the parameters still change" + how_far(simulator, steps.back());
             return without_parameters(simulator, steps, failed_at(k, what));
         }
-        const instrument_step step = solve(options.corrects_processing ? simulator.corrected(regressor, motions.logs, along, chi) : regressor, along);
+        const instrument_step step = solve(
+            options.corrects_processing ? simulator.corrected(regressor, motions.logs, along, chi) : regressor, along);
         if (step.chi.size() == 0) {
             loop_estimate lost =
                 without_parameters(simulator, steps, failed_at(k, lost_rank(simulator.model(), step.qr)));
