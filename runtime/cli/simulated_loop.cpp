@@ -186,10 +186,12 @@ simulated_loops simulated_loops_of(const loaded_robot& robot, const std::string&
     const idim_model_interface& model = robot.model();
     const auto description = generator::read_robot(robot_file);
     const auto without = std::find_if(logs.begin(), logs.end(), [](const idim::log& l) { return l.qr.size() == 0; });
-    if (request.track || !description.control || without != logs.end()) {
+    const bool known = description.control && description.control->law == "pd_cascade";
+    if (request.track || !known || without != logs.end()) {
         const std::string why = request.track          ? "declared control law left aside"
                                 : !description.control ? "the control law is unknown"
-                                                       : fmt::format("{} has no reference qr1..", without->file);
+                                : !known ? fmt::format("a control law {} cannot be simulated", description.control->law)
+                                         : fmt::format("{} has no reference qr1..", without->file);
         return tracking_loops(model, logs, filter, request, a_priori, why);
     }
     cascade loop = declared_cascade(*description.control, model, a_priori);
