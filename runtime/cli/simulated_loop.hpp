@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "idim/closed_loop.hpp"
+#include "idim/loop_identification.hpp"
 #include "measured_motion.hpp"
 
 namespace idim::cli {
