@@ -27,6 +27,25 @@ function(_idim_model_files language name derivatives result)
   endif()
 endfunction()
 
+# The name of a robot as the generator reads it from a URDF: a C identifier, with an underscore behind a name that means something
+# in generated code.
+function(_idim_identifier text result)
+  set(language_names
+    alignas alignof and and_eq asm auto bitand bitor bool break case catch char char8_t char16_t char32_t class compl
+    concept const consteval constexpr constinit const_cast continue co_await co_return co_yield decltype default delete do
+    double dynamic_cast else enum explicit export extern false float for friend goto if inline int long mutable namespace
+    new noexcept not not_eq nullptr operator or or_eq private protected public register requires return short signed
+    sizeof static static_assert static_cast reinterpret_cast struct switch template this thread_local throw true try
+    typedef typeid typename union unsigned using virtual void volatile wchar_t while xor xor_eq restrict main std idim
+    assert errno NULL EOF NAN INFINITY linux unix base)
+  string(REGEX REPLACE "[^A-Za-z0-9]" "_" identifier "${text}")
+  string(REGEX REPLACE "^([^A-Za-z])" "r\\1" identifier "${identifier}")
+  if(identifier IN_LIST language_names)
+    string(APPEND identifier "_")
+  endif()
+  set(${result} "${identifier}" PARENT_SCOPE)
+endfunction()
+
 # The name in the file, and the URDF that its line `urdf:` names, if any. Read when the build is configured: once more when the
 # file changes.
 function(_idim_read_robot robot_file name urdf_file)
@@ -43,8 +62,7 @@ function(_idim_read_robot robot_file name urdf_file)
     endif()
     string(REGEX MATCH "\nname:[ \t]*[\"']?([A-Za-z0-9_]*)" found "\n${text}")
   endif()
-  string(REGEX REPLACE "[^A-Za-z0-9]" "_" identifier "${CMAKE_MATCH_1}")
-  string(REGEX REPLACE "^([^A-Za-z])" "r\\1" identifier "${identifier}") # as the generator reads the names of a URDF
+  _idim_identifier("${CMAKE_MATCH_1}" identifier)
   set(${name} "${identifier}" PARENT_SCOPE)
 endfunction()
 
