@@ -91,7 +91,7 @@ observation observe_logs(const loaded_robot& robot, const std::vector<idim::log>
 
 void add_filter_options(CLI::App& command, filter_request& request) {
     command.add_option("--cutoff", request.cutoff,
-                       "cut-off of the position filter [Hz]; default: chosen from the data");
+                       "cut-off of the position filter [Hz], 0: no filter; default: chosen from the data");
     command.add_option("--order", request.order,
                        "order of its Butterworth filter, applied forward and backward; default 4");
     command.add_option("--decimation", request.decimation, "keep one row in so many; default: chosen from the data");

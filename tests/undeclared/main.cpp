@@ -25,7 +25,7 @@ struct bench_options {
     std::uint64_t seed = 0;
     int count = 0;
     double scale = 1.0;
-    bool evaluation = false, make_only = false;
+    bool evaluation = false, make_only = false, check = false;
     std::string keep, json_file;
     int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 };
@@ -135,7 +135,9 @@ int run(bench_options options) {
     if (!options.json_file.empty()) {
         std::ofstream(options.json_file) << report_json(results).dump(2) << '\n';
     }
-    return 0;
+    const std::vector<table_row> rows = score_table(results);
+    const bool kept = std::all_of(rows.begin(), rows.end(), [](const table_row& row) { return row.kept(); });
+    return options.check && !kept ? 1 : 0;
 }
 
 }  // namespace
@@ -157,6 +159,7 @@ int main(int argc, char** argv) {
     app.add_option("--time-limit", options.under_test.time_limit, "for one run of the command [s]");
     app.add_option("--options", options.under_test.options, "further options of refine");
     app.add_option("--json", options.json_file, "results as JSON");
+    app.add_flag("--check", options.check, "exit 1 where a bound is not kept");
     app.add_flag("--make-only", options.make_only, "write the cases and their truth, run nothing");
     CLI11_PARSE(app, argc, argv);
     try {

@@ -20,83 +20,114 @@ double squared(double x) {
     return x * x;
 }
 
-/// Forms that are a torque at the effect's joint; an empty function for every other form.
-signal_function torque_of(const missing_effect& e) {
+/// Linear or shape coefficients of an effect, 0 where it has none of that name.
+double value(const missing_effect& e, const char* name) {
+    const auto found = e.linear.find(name);
+    return found == e.linear.end() ? 0.0 : found->second;
+}
+
+double shape(const missing_effect& e, const char* name) {
+    const auto found = e.shape.find(name);
+    return found == e.shape.end() ? 0.0 : found->second;
+}
+
+/// Forms that are a function of velocities, time and temperature; an empty function for every other form.
+signal_function velocity_torque_of(const missing_effect& e) {
     const int j = e.joint, o = e.other;
-    const auto value = [&](const char* name) { return e.linear.count(name) ? e.size(name) : 0.0; };
-    const auto shape = [&](const char* name) { return e.shape.count(name) ? e.at(name) : 0.0; };
     const std::string& form = e.form;
     if (form == "viscous_friction") {
-        return [a = value("Fv"), j](const plant_signals& s) { return a * s.qd[j]; };
-    }
-    if (form == "torque_offset") {
-        return [a = value("off")](const plant_signals&) { return a; };
+        return [a = value(e, "Fv"), j](const plant_signals& s) { return a * s.qd[j]; };
     }
     if (form == "asymmetric_viscous_friction") {
-        return [a = value("Fva"), j](const plant_signals& s) { return a * std::abs(s.qd[j]); };
+        return [a = value(e, "Fva"), j](const plant_signals& s) { return a * std::abs(s.qd[j]); };
     }
-    if (form == "nonlinear_viscous_friction" && shape("p") > 1.0) {
-        return [a = value("Fp"), p = shape("p"), j](const plant_signals& s) {
+    if (form == "nonlinear_viscous_friction" && shape(e, "p") > 1.0) {
+        return [a = value(e, "Fp"), p = shape(e, "p"), j](const plant_signals& s) {
             return std::copysign(a * std::pow(std::abs(s.qd[j]), p), s.qd[j]);
         };
     }
-    if (form == "torque_ripple") {
-        return [c = value("Ac"), a = value("As"), k = shape("k"), j](const plant_signals& s) {
-            return c * std::cos(k * s.q[j]) + a * std::sin(k * s.q[j]);
-        };
-    }
-    if (form == "ripple_triangle" || form == "ripple_with_harmonic") {
-        const double amplitude = std::hypot(value("Ac"), value("As")), phase = std::atan2(value("As"), value("Ac"));
-        const bool corners = form == "ripple_triangle";
-        return [=, k = shape("k")](const plant_signals& s) {
-            const double angle = k * s.q[j] - phase;
-            return amplitude * (corners ? triangle(angle) : std::cos(angle) + 0.4 * std::cos(2.0 * angle + 1.0));
-        };
-    }
-    if (form == "spring") {
-        return [a = value("K"), b = value("K0"), j](const plant_signals& s) { return a * s.q[j] + b; };
-    }
-    if (form == "spring_hardening") {
-        return [a = value("K"), b = value("K0"), j](const plant_signals& s) {
-            return a * s.q[j] * (1.0 + 0.3 * squared(s.q[j])) + b;
-        };
-    }
-    if (form == "gravity_compensator" || form == "gravity_sine") {
-        return [a = value("Kc"), b = value("Ks"), j](const plant_signals& s) {
-            return a * std::cos(s.q[j]) + b * std::sin(s.q[j]);
-        };
-    }
     if (form == "coupling_friction") {
-        return [a = value("Fvc"), b = value("Fcc"), o](const plant_signals& s) { return a * s.qd[o] + b * s.slip[o]; };
+        return [a = value(e, "Fvc"), b = value(e, "Fcc"), o](const plant_signals& s) {
+            return a * s.qd[o] + b * s.slip[o];
+        };
     }
     if (form == "thermal_friction" && e.shape.count("T0")) {
-        return [a = value("Fvt"), T0 = shape("T0"), j](const plant_signals& s) {
+        return [a = value(e, "Fvt"), T0 = shape(e, "T0"), j](const plant_signals& s) {
             return a * s.qd[j] * (s.temperature[j] - T0);
         };
     }
     if (form == "thermal_friction") {
-        return [a = value("Fvt"), tc = shape("tc"), j](const plant_signals& s) {
+        return [a = value(e, "Fvt"), tc = shape(e, "tc"), j](const plant_signals& s) {
             return a * s.qd[j] * std::exp(-s.t / tc);
         };
     }
     if (form == "periodic_disturbance") {
-        return [a = value("Ac"), b = value("As"), w = shape("w")](const plant_signals& s) {
+        return [a = value(e, "Ac"), b = value(e, "As"), w = shape(e, "w")](const plant_signals& s) {
             return a * std::cos(w * s.t) + b * std::sin(w * s.t);
         };
     }
-    const double a = shape("range"), b = shape("other_range"), phase = shape("phase");
-    if (form == "position_product") {
-        return [=, c = value("c")](const plant_signals& s) {
-            return 4.0 * c * (s.q[j] / a + phase) * (s.q[o] / b - phase);
+    return {};
+}
+
+/// Forms that are a function of the joint's position; an empty function for every other form.
+signal_function position_torque_of(const missing_effect& e) {
+    const int j = e.joint;
+    const std::string& form = e.form;
+    if (form == "torque_offset") {
+        return [a = value(e, "off")](const plant_signals&) { return a; };
+    }
+    if (form == "torque_ripple") {
+        return [c = value(e, "Ac"), a = value(e, "As"), k = shape(e, "k"), j](const plant_signals& s) {
+            return c * std::cos(k * s.q[j]) + a * std::sin(k * s.q[j]);
         };
     }
-    if (form == "sine_of_both") {
-        return [=, c = value("c")](const plant_signals& s) {
+    if (form == "ripple_triangle" || form == "ripple_with_harmonic") {
+        const double amplitude = std::hypot(value(e, "Ac"), value(e, "As"));
+        const double phase = std::atan2(value(e, "As"), value(e, "Ac"));
+        const bool corners = form == "ripple_triangle";
+        return [=, k = shape(e, "k")](const plant_signals& s) {
+            const double angle = k * s.q[j] - phase;
+            return amplitude * (corners ? triangle(angle) : std::cos(angle) + 0.4 * std::cos(2.0 * angle + 1.0));
+        };
+    }
+    if (form == "spring" || form == "spring_hardening") {
+        const double cubic = form == "spring" ? 0.0 : 0.3;
+        return [=, a = value(e, "K"), b = value(e, "K0")](const plant_signals& s) {
+            return a * s.q[j] * (1.0 + cubic * squared(s.q[j])) + b;
+        };
+    }
+    if (form == "gravity_compensator" || form == "gravity_sine") {
+        return [a = value(e, "Kc"), b = value(e, "Ks"), j](const plant_signals& s) {
+            return a * std::cos(s.q[j]) + b * std::sin(s.q[j]);
+        };
+    }
+    return {};
+}
+
+/// Forms outside the catalogue; an empty function for every other form.
+signal_function outside_torque_of(const missing_effect& e) {
+    const int j = e.joint, o = e.other;
+    const double a = shape(e, "range"), b = shape(e, "other_range"), phase = shape(e, "phase"), c = value(e, "c");
+    if (e.form == "position_product") {
+        return [=](const plant_signals& s) { return 4.0 * c * (s.q[j] / a + phase) * (s.q[o] / b - phase); };
+    }
+    if (e.form == "sine_of_both") {
+        return [=](const plant_signals& s) {
             return 2.0 * c * std::sin(2.5 * s.q[j] / a + phase) * std::cos(2.0 * s.q[o] / b + 2.0 * phase);
         };
     }
-    if (form == "friction_by_other_position") {
-        return [=, c = value("c")](const plant_signals& s) { return 2.0 * c * s.slip[j] * (s.q[o] / b); };
+    if (e.form == "friction_by_other_position") {
+        return [=](const plant_signals& s) { return 2.0 * c * s.slip[j] * (s.q[o] / b); };
+    }
+    return {};
+}
+
+/// Forms that are a torque at the effect's joint; an empty function for every other form.
+signal_function torque_of(const missing_effect& e) {
+    for (const auto& family : {velocity_torque_of, position_torque_of, outside_torque_of}) {
+        if (signal_function torque = family(e)) {
+            return torque;
+        }
     }
     return {};
 }
@@ -105,51 +136,51 @@ signal_function torque_of(const missing_effect& e) {
 signal_function dry_magnitude_of(const missing_effect& e) {
     const int j = e.joint;
     const std::string& form = e.form;
-    const auto value = [&](const char* name) { return e.size(name); };
     if (form == "coulomb_friction") {
-        return [a = value("Fc")](const plant_signals&) { return a; };
+        return [a = value(e, "Fc")](const plant_signals&) { return a; };
     }
     if (form == "asymmetric_coulomb") {
-        return [a = value("Fca"), j](const plant_signals& s) { return s.qd[j] > 0.0 ? a : -a; };
+        return [a = value(e, "Fca"), j](const plant_signals& s) { return s.qd[j] > 0.0 ? a : -a; };
     }
     if (form == "stribeck_friction") {
-        return [a = value("Fs"), vs = e.at("vs"), j](const plant_signals& s) {
+        return [a = value(e, "Fs"), vs = e.at("vs"), j](const plant_signals& s) {
             return a * std::exp(-squared(s.qd[j] / vs));
         };
     }
     if (form == "stribeck_exponent_one") {
-        return [a = value("Fs"), vs = e.at("vs"), j](const plant_signals& s) {
+        return [a = value(e, "Fs"), vs = e.at("vs"), j](const plant_signals& s) {
             return a * std::exp(-std::abs(s.qd[j]) / vs);
         };
     }
     if (form == "stribeck_tanh") {
-        return [a = value("Fs"), vs = e.at("vs"), j](const plant_signals& s) {
+        return [a = value(e, "Fs"), vs = e.at("vs"), j](const plant_signals& s) {
             return a * (1.0 - std::tanh(std::abs(s.qd[j]) / vs));
         };
     }
     if (form == "nonlinear_viscous_friction" && e.at("p") <= 1.0) {
-        return
-            [a = value("Fp"), p = e.at("p"), j](const plant_signals& s) { return a * std::pow(std::abs(s.qd[j]), p); };
+        return [a = value(e, "Fp"), p = e.at("p"), j](const plant_signals& s) {
+            return a * std::pow(std::abs(s.qd[j]), p);
+        };
     }
     if (form == "viscous_logarithm") {
-        return [a = value("Fp"), v0 = e.at("v0"), j](const plant_signals& s) {
+        return [a = value(e, "Fp"), v0 = e.at("v0"), j](const plant_signals& s) {
             return a * std::log1p(std::abs(s.qd[j]) / v0);
         };
     }
     if (form == "load_dependent_friction") {
-        return [a = value("Fl"), j](const plant_signals& s) { return a * std::abs(s.tau_rigid[j]); };
+        return [a = value(e, "Fl"), j](const plant_signals& s) { return a * std::abs(s.tau_rigid[j]); };
     }
     if (form == "load_saturating") {
-        return [a = value("Fl"), j](const plant_signals& s) { return a * std::pow(std::abs(s.tau_rigid[j]), 0.8); };
+        return [a = value(e, "Fl"), j](const plant_signals& s) { return a * std::pow(std::abs(s.tau_rigid[j]), 0.8); };
     }
     if (form == "position_dependent_friction") {
-        return [a = value("Fcc"), b = value("Fcs"), k = e.at("k"), j](const plant_signals& s) {
+        return [a = value(e, "Fcc"), b = value(e, "Fcs"), k = e.at("k"), j](const plant_signals& s) {
             return a * std::cos(k * s.q[j]) + b * std::sin(k * s.q[j]);
         };
     }
     if (form == "position_friction_triangle") {
-        const double amplitude = std::hypot(value("Fcc"), value("Fcs"));
-        const double phase = std::atan2(value("Fcs"), value("Fcc"));
+        const double amplitude = std::hypot(value(e, "Fcc"), value(e, "Fcs"));
+        const double phase = std::atan2(value(e, "Fcs"), value(e, "Fcc"));
         return [=, k = e.at("k")](const plant_signals& s) { return amplitude * triangle(k * s.q[j] - phase); };
     }
     return {};
@@ -170,8 +201,7 @@ carried_load load_of(const missing_effect& e) {
 
 /// Gravity turned about the axes of the base that it is not along.
 Eigen::Vector3d tilted(const Eigen::Vector3d& gravity, const missing_effect& e) {
-    const auto angle = [&](const char* name) { return e.linear.count(name) ? e.size(name) : 0.0; };
-    const Eigen::Vector3d turn(angle("tilt_x"), angle("tilt_y"), angle("tilt_z"));
+    const Eigen::Vector3d turn(value(e, "tilt_x"), value(e, "tilt_y"), value(e, "tilt_z"));
     return Eigen::AngleAxisd(turn.norm(), turn.normalized()) * gravity;
 }
 

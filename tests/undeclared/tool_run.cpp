@@ -51,6 +51,14 @@ json read_json(const std::string& file) {
     return json::parse(text);
 }
 
+/// Options that give identify the rows that refine judged by; none where it does not say which.
+std::string filter_options(const std::string& refined) {
+    const json filter = read_json(refined).value("filter", json());
+    return filter.is_object() ? fmt::format("--cutoff {} --order {} --decimation {}", filter.at("cutoff").get<double>(),
+                                            filter.at("order").get<int>(), filter.at("decimation").get<int>())
+                              : "";
+}
+
 }  // namespace
 
 finding run_refine(const tool& under_test, const bench_case& made, const std::string& folder) {
@@ -81,8 +89,8 @@ model_errors true_model_errors(const tool& under_test, const bench_case& made, c
             throw std::runtime_error(last_line(folder + "/" + log));
         }
     };
-    must(fmt::format("'{}' identify robot.yaml{} --json twin.json", under_test.command,
-                     logs("twin_ident", made.identification.size())),
+    must(fmt::format("'{}' identify robot.yaml{} {} --json twin.json", under_test.command,
+                     logs("twin_ident", made.identification.size()), filter_options(folder + "/refined.json")),
          "twin_identify.log");
     must(fmt::format("'{}' validate robot.yaml twin.json{} --json twin_valid.json", under_test.command,
                      logs("twin_valid", made.validation.size())),
