@@ -159,8 +159,9 @@ void read_torque(const yaml_fields& fields, effect_description& effect) {
 }  // namespace
 
 effect_description read_effect(const std::string& file) {
-    const yaml_fields fields(read_yaml(file), {"effect", "per", "acts_on", "kind", "torque", "torque_without_temperature",
-                                               "per_log", "state", "linear", "shape", "about"});
+    const yaml_fields fields(read_yaml(file),
+                             {"effect", "per", "acts_on", "kind", "torque", "torque_without_temperature", "per_log",
+                              "state", "linear", "shape", "about"});
     effect_description effect;
     effect.file = file;
     const yaml_value name = fields.require("effect", "the name of the effect");

@@ -35,8 +35,8 @@ struct shape_coefficient {
     std::pair<double, double> range;
 };
 
-/// A state of an effect with memory, with its own discrete update along the samples. Expressions of the signals, the shapes,
-/// all states and, in `next`, the step `dt` [s].
+/// A state of an effect with memory, with its own discrete update along the samples. Expressions of the signals, the
+/// shapes, all states and, in `next`, the step `dt` [s].
 struct effect_state {
     std::string name;
     expression_text start;  ///< at the first sample

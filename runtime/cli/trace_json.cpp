@@ -35,9 +35,8 @@ json step_json(const trace_step& step, const loaded_robot& robot) {
     json content = place_json(step.place, robot);
     json parameters = json::object();
     for (const effect_parameter& parameter : step.parameters) {
-        parameters[parameter.name] = {{"value", finite(parameter.value)},
-                                      {"std", finite(parameter.std)},
-                                      {"unit", parameter.unit}};
+        parameters[parameter.name] = {
+            {"value", finite(parameter.value)}, {"std", finite(parameter.std)}, {"unit", parameter.unit}};
     }
     content["parameters"] = parameters;
     content["p_value"] = step.p_value;
@@ -86,7 +85,8 @@ json floor_json(const noise_floor& floor) {
 }  // namespace
 
 json to_json(const trace_errors& errors, const loaded_robot& robot) {
-    return {{"identification", to_json(errors.identification, robot)}, {"validation", to_json(errors.validation, robot)}};
+    return {{"identification", to_json(errors.identification, robot)},
+            {"validation", to_json(errors.validation, robot)}};
 }
 
 std::string verdict_of(const effect_trace& trace) {

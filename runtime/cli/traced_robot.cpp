@@ -101,8 +101,9 @@ traced_robot load_traced_robot(const trace_options& options) {
 }
 
 traced_robot with_description(const traced_robot& before, const std::string& robot_file) {
-    traced_robot after{load_robot(robot_file), load_effects(robot_file), before.filter, before.fitted, before.held_back,
-                       {}, before.held_back_note};
+    traced_robot after{load_robot(robot_file), load_effects(robot_file), before.filter,
+                       before.fitted,          before.held_back,         {},
+                       before.held_back_note};
     after.declared = declared_effects(robot_file, after.robot);
     return after;
 }

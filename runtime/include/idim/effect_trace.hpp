@@ -30,8 +30,8 @@ struct effect_parameter {
     std::string name;
     std::string unit;
     double value = 0.0;
-    double std = 0.0;      ///< robust to the autocorrelation of the residual
-    bool is_shape = false; ///< enters the description as a shape value
+    double std = 0.0;       ///< robust to the autocorrelation of the residual
+    bool is_shape = false;  ///< enters the description as a shape value
 };
 
 /// Errors on the logs that were fitted and on those held back.
@@ -97,16 +97,16 @@ struct trace_input {
     std::vector<filtered_samples> held_back;
     filter_choice filter;
     const idim_effect_table* catalogue = nullptr;
-    std::vector<effect_place> declared;  ///< effects the description has already
-    int most_effects = 12;               ///< 0: only look
+    std::vector<effect_place> declared;                ///< effects the description has already
+    int most_effects = 12;                             ///< 0: only look
     std::function<void(const std::string&)> progress;  ///< one line for the user; may be empty
 };
 
-/// Finds what the model lacks: looks at the residual of weighted least squares, tries every effect of the catalogue at every
-/// joint, adds the one that gains most where it is significant (partial F on effective rows, corrected for everything
-/// tried), gains on data it was not fitted to, away from reversals too, and is plausible; then again, terms that others made
-/// needless taken out, until nothing passes. METHODS.md has the equations; the tests of acceptance stand in effect_tracer.
-/// Throws data_error where the rows are too few.
+/// Finds what the model lacks: looks at the residual of weighted least squares, tries every effect of the catalogue at
+/// every joint, adds the one that gains most where it is significant (partial F on effective rows, corrected for
+/// everything tried), gains on data it was not fitted to, away from reversals too, and is plausible; then again, terms
+/// that others made needless taken out, until nothing passes. METHODS.md has the equations; the tests of acceptance
+/// stand in effect_tracer. Throws data_error where the rows are too few.
 effect_trace trace_effects(const trace_input& input);
 
 /// Cuts the last `share` of a log off to be held back, `gap` seconds left out between: where no log was given for

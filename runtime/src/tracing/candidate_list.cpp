@@ -9,8 +9,8 @@ namespace idim {
 
 namespace {
 
-/// Where the linearisation of an effect on the model's own torque starts: a quarter of a sample's delay, a compliance whose
-/// twist is a thousandth of the smallest range of motion at the largest torque.
+/// Where the linearisation of an effect on the model's own torque starts: a quarter of a sample's delay, a compliance
+/// whose twist is a thousandth of the smallest range of motion at the largest torque.
 constexpr double first_delay = 0.25;
 constexpr double first_twist = 1e-3;
 

@@ -96,7 +96,12 @@ class soft_transmission final : public effect_candidate {
         q.col(joint_) -= twist;
         qd.col(joint_) -= twist_rate;
         qdd.col(joint_) -= twist_acceleration;
-        const idim_samples link = {count,      count, q.data(), qd.data(), qdd.data(), motor.t.data(),
+        const idim_samples link = {count,
+                                   count,
+                                   q.data(),
+                                   qd.data(),
+                                   qdd.data(),
+                                   motor.t.data(),
                                    motor.temp.size() > 0 ? motor.temp.data() : nullptr};
         Eigen::MatrixXd tau(motor.samples(), model_.dof);
         model_.inverse_dynamics_batch(&link, rigid_.data(), tau.data(), count);
