@@ -17,6 +17,16 @@ struct identification {
 identification identify(const loaded_robot& robot, const filter_choice& filter, observation rows,
                         least_squares_method method);
 
+/// The same of logs, whose rows are repeated with the estimate where they depend on it (fit_rows).
+identification identify(const loaded_robot& robot, const filter_choice& filter, const std::vector<idim::log>& logs,
+                        least_squares_method method);
+
+/// The base parameter of a column of the rows.
+const generator::parameter_context& parameter_of(const identification& found, Eigen::Index column);
+
+/// Its name, with the number of the log behind it where every log has its own: "Ac1@2".
+std::string name_of(const identification& found, Eigen::Index column);
+
 /// JSON of `identify` (FORMATS.md).
 json to_json(const identification& found, const std::string& method);
 

@@ -30,8 +30,8 @@ void print_parameters(const identification& found) {
     const Eigen::VectorXd std = found.result.deviations();
     fmt::print("  {:<10} {:>13} {:>11} {:>8}  {}\n", "parameter", "value", "std", "%", "unit");
     for (Eigen::Index k = 0; k < found.result.chi.size(); ++k) {
-        const auto& parameter = found.robot.generated.base.parameters[static_cast<std::size_t>(k)];
-        fmt::print("  {:<10} {:>13.6g} {:>11.3g} {:>8.2f}  {}\n", parameter.name, found.result.chi[k], std[k],
+        const auto& parameter = parameter_of(found, k);
+        fmt::print("  {:<10} {:>13.6g} {:>11.3g} {:>8.2f}  {}\n", name_of(found, k), found.result.chi[k], std[k],
                    relative_percent(std[k], found.result.chi[k]), parameter.unit);
     }
 }
@@ -47,7 +47,7 @@ void print_identification(const identification& found, const std::string& method
                fmt::join(result.correlation_length, " "));
     std::vector<std::string> dropped;
     for (const int k : found.essential.dropped) {
-        dropped.push_back(found.robot.generated.base.parameters[static_cast<std::size_t>(k)].name);
+        dropped.push_back(name_of(found, k));
     }
     fmt::print("  essential: {} of {} parameters, relative error {:.2f} %; without: {}\n", found.essential.kept.size(),
                result.chi.size(), 100.0 * found.essential.residual.relative_error,
@@ -59,9 +59,8 @@ void print_truth(const identification& found, const Eigen::VectorXd& truth) {
     const Eigen::VectorXd std = found.result.deviations();
     fmt::print("  {:<10} {:>13} {:>13} {:>22}\n", "parameter", "truth", "estimate", "error in deviations");
     for (Eigen::Index k = 0; k < truth.size(); ++k) {
-        fmt::print("  {:<10} {:>13.6g} {:>13.6g} {:>22.2f}\n",
-                   found.robot.generated.base.parameters[static_cast<std::size_t>(k)].name, truth[k],
-                   found.result.chi[k], (found.result.chi[k] - truth[k]) / std[k]);
+        fmt::print("  {:<10} {:>13.6g} {:>13.6g} {:>22.2f}\n", name_of(found, k), truth[k], found.result.chi[k],
+                   (found.result.chi[k] - truth[k]) / std[k]);
     }
 }
 
@@ -69,7 +68,7 @@ void print_truth(const identification& found, const Eigen::VectorXd& truth) {
 std::string explain(const identification& found, const std::vector<std::string>& at_rest) {
     std::vector<std::string> names;
     for (const int k : found.result.not_excited) {
-        names.push_back(found.robot.generated.base.parameters[static_cast<std::size_t>(k)].name);
+        names.push_back(name_of(found, k));
     }
     std::string text = fmt::format("the data does not excite {}: rank {} of {}", fmt::join(names, " "),
                                    found.result.rank, found.robot.generated.base.parameters.size());
@@ -97,8 +96,7 @@ int run(const identify_options& options) {
         throw data_error(explain_standstill(robot, at_rest));
     }
     const filter_choice filter = choose_filter(logs, options.filter);
-    const identification found =
-        identify(robot, filter, observe_logs(robot, logs, filter), methods().at(options.method));
+    const identification found = identify(robot, filter, logs, methods().at(options.method));
     write_json(options.json_file, to_json(found, options.method));
     if (found.result.chi.size() == 0) {
         throw data_error(found.result.not_excited.empty() ? found.result.message : explain(found, at_rest));

@@ -70,12 +70,13 @@ std::vector<std::string> joints_at_rest(const loaded_robot& robot, const std::ve
     return names;
 }
 
-observation observe_logs(const loaded_robot& robot, const std::vector<idim::log>& logs, const filter_choice& choice) {
+observation observe_logs(const loaded_robot& robot, const std::vector<idim::log>& logs, const filter_choice& choice,
+                         const Eigen::VectorXd& chi) {
     std::vector<filtered_samples> samples;
     for (const idim::log& log : logs) {
         samples.push_back(filter_log(log, choice));
     }
-    return observe(robot.model(), samples, choice);
+    return observe(robot.model(), samples, choice, chi);
 }
 
 void add_filter_options(CLI::App& command, filter_request& request) {

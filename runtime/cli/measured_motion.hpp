@@ -35,8 +35,9 @@ std::vector<idim::log> read_logs(const loaded_robot& robot, const std::vector<st
 /// Joints whose measured position never leaves one value over all logs, by name.
 std::vector<std::string> joints_at_rest(const loaded_robot& robot, const std::vector<idim::log>& logs);
 
-/// Rows of the identification: filtered, decimated.
-observation observe_logs(const loaded_robot& robot, const std::vector<idim::log>& logs, const filter_choice& choice);
+/// Rows of the identification: filtered, decimated; of parameters `chi` where they depend on these.
+observation observe_logs(const loaded_robot& robot, const std::vector<idim::log>& logs, const filter_choice& choice,
+                         const Eigen::VectorXd& chi = {});
 
 /// Options --cutoff, --order, --decimation.
 void add_filter_options(CLI::App& command, filter_request& request);
