@@ -1,7 +1,5 @@
 #include "identification.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
 #include "idim/fitted_rows.hpp"
@@ -14,7 +12,7 @@ json parameters_json(const identification& found) {
     json list = json::array();
     const Eigen::VectorXd std = found.result.deviations();
     for (Eigen::Index k = 0; k < found.result.chi.size(); ++k) {
-        const auto& parameter = parameter_of(found, k);
+        const auto& parameter = parameter_of(found.robot, found.rows, k);
         list.push_back({{"name", parameter.name},
                         {"value", found.result.chi[k]},
                         {"std", std[k]},
@@ -40,8 +38,9 @@ json iterations_json(const estimate& result) {
 json essential_json(const identification& found) {
     json kept = json::array();
     for (const int k : found.essential.kept) {
-        kept.push_back(
-            {{"name", name_of(found, k)}, {"value", found.essential.chi[k]}, {"std", found.essential.std[k]}});
+        kept.push_back({{"name", name_of(found.robot, found.rows, k)},
+                        {"value", found.essential.chi[k]},
+                        {"std", found.essential.std[k]}});
     }
     return {{"parameters", kept},
             {"f_statistic", finite(found.essential.f_statistic)},
@@ -61,7 +60,7 @@ identification with_essential(const loaded_robot& robot, const filter_choice& fi
 json names_json(const identification& found, const std::vector<int>& columns) {
     json names = json::array();
     for (const int k : columns) {
-        names.push_back(name_of(found, k));
+        names.push_back(name_of(found.robot, found.rows, k));
     }
     return names;
 }
@@ -70,16 +69,6 @@ json names_json(const identification& found, const std::vector<int>& columns) {
 
 double relative_percent(double std, double value) {
     return 100.0 * std / std::abs(value);
-}
-
-const generator::parameter_context& parameter_of(const identification& found, Eigen::Index column) {
-    const int parameter = column_of(found.rows, static_cast<int>(column)).parameter;
-    return found.robot.generated.base.parameters[static_cast<std::size_t>(parameter)];
-}
-
-std::string name_of(const identification& found, Eigen::Index column) {
-    const int log = column_of(found.rows, static_cast<int>(column)).log;
-    return parameter_of(found, column).name + (log >= 0 ? fmt::format("@{}", log + 1) : "");
 }
 
 identification identify(const loaded_robot& robot, const filter_choice& filter, const std::vector<idim::log>& logs,

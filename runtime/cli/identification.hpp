@@ -21,12 +21,6 @@ identification identify(const loaded_robot& robot, const filter_choice& filter, 
 identification identify(const loaded_robot& robot, const filter_choice& filter, const std::vector<idim::log>& logs,
                         least_squares_method method);
 
-/// The base parameter of a column of the rows.
-const generator::parameter_context& parameter_of(const identification& found, Eigen::Index column);
-
-/// Its name, with the number of the log behind it where every log has its own: "Ac1@2".
-std::string name_of(const identification& found, Eigen::Index column);
-
 /// JSON of `identify` (FORMATS.md).
 json to_json(const identification& found, const std::string& method);
 

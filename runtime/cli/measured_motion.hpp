@@ -26,6 +26,9 @@ compiled_model compile_files(const std::vector<generator::rendered_file>& files,
 /// Generates, compiles (or takes from the cache) and loads the model of a robot description.
 loaded_robot load_robot(const std::string& robot_file);
 
+/// Generates, compiles (or takes from the cache) and loads the effects that a residual of this robot may be traced to.
+compiled_effects load_effects(const std::string& robot_file);
+
 /// Names and drive gains for reading a log of this robot.
 log_columns columns_of(const loaded_robot& robot);
 
@@ -38,6 +41,13 @@ std::vector<std::string> joints_at_rest(const loaded_robot& robot, const std::ve
 /// Rows of the identification: filtered, decimated; of parameters `chi` where they depend on these.
 observation observe_logs(const loaded_robot& robot, const std::vector<idim::log>& logs, const filter_choice& choice,
                          const Eigen::VectorXd& chi = {});
+
+/// The base parameter of a column of rows.
+const generator::parameter_context& parameter_of(const loaded_robot& robot, const observation& rows,
+                                                 Eigen::Index column);
+
+/// Its name, with the number of the log behind it where every log has its own: "Ac1@2".
+std::string name_of(const loaded_robot& robot, const observation& rows, Eigen::Index column);
 
 /// Options --cutoff, --order, --decimation.
 void add_filter_options(CLI::App& command, filter_request& request);
