@@ -155,7 +155,7 @@ model_function derive_derivatives(const robot_model& model) {
         "inverse_dynamics_derivatives",
         "Derivatives of inverse_dynamics by q and qd, of sign(x) zero; by qdd they are mass_matrix, by "
         "chi regressor.",
-        {"q", "qd", "qdd", "t", "temp", "chi"},
+        {"q", "qd", "qdd", "t", "temp", "state", "motor", "chi"},
         {"dtau_dq", "dtau_dqd"},
         inverse_dynamics_model};
     model_function torque = derive(plan, model);
