@@ -103,31 +103,51 @@ std::optional<second_order_sections> twist_filter(const idim_model_interface& mo
     return butterworth_lowpass(order, std::min(0.5, share_of_swing * swing / (0.5 * motor.rate)));
 }
 
+using twist_filters = std::vector<std::optional<second_order_sections>>;
+
+/// Puts the links as far behind their motors as some torques twist the transmissions.
+void twist(const idim_model_interface& model, const filtered_samples& motor, const Eigen::MatrixXd& torque,
+           const twist_filters& filters, filtered_samples& link) {
+    for (int j = 0; j < model.dof; ++j) {
+        const auto& filter = filters[static_cast<std::size_t>(j)];
+        if (filter && motor.samples() > padding(*filter)) {
+            const Eigen::VectorXd angle = zero_phase_filter(*filter, torque.col(j)) / stiffness_of(model, j);
+            const Eigen::VectorXd rate = differences(angle, motor.rate);
+            link.q.col(j) = motor.q.col(j) - angle;
+            link.qd.col(j) = motor.qd.col(j) - rate;
+            link.qdd.col(j) = motor.qdd.col(j) - differences(rate, motor.rate);
+        }
+    }
+}
+
 /// Puts the motion of the links in the place of that of the motors.
 void follow_links(const idim_model_interface& model, const filtered_samples& motor, const Eigen::VectorXd& chi,
                   filtered_samples& link) {
     constexpr int most_steps = 60;
     constexpr double settled = 1e-11;
-    std::vector<std::optional<second_order_sections>> filters;
+    twist_filters filters;
     for (int j = 0; j < model.dof; ++j) {
         filters.push_back(stiffness_of(model, j) > 0.0 ? twist_filter(model, motor, chi, j) : std::nullopt);
     }
     double change = 1.0;
     for (int step = 0; step < most_steps && change > settled; ++step) {
-        const Eigen::MatrixXd torque = rigid_torques(model, link, chi);
         const Eigen::MatrixXd before = link.q;
-        for (int j = 0; j < model.dof; ++j) {
-            const auto& filter = filters[static_cast<std::size_t>(j)];
-            if (filter && motor.samples() > padding(*filter)) {
-                const Eigen::VectorXd twist = zero_phase_filter(*filter, torque.col(j)) / stiffness_of(model, j);
-                const Eigen::VectorXd rate = differences(twist, motor.rate);
-                link.q.col(j) = motor.q.col(j) - twist;
-                link.qd.col(j) = motor.qd.col(j) - rate;
-                link.qdd.col(j) = motor.qdd.col(j) - differences(rate, motor.rate);
-            }
-        }
+        twist(model, motor, rigid_torques(model, link, chi), filters, link);
         change = (link.q - before).cwiseAbs().maxCoeff() / std::max(1.0, motor.q.cwiseAbs().maxCoeff());
     }
+}
+
+/// A first guess without parameters: the measured torque twists the transmissions. Rotors and links could not be told
+/// apart if they moved alike.
+void follow_measured_torque(const idim_model_interface& model, const filtered_samples& motor, filtered_samples& link) {
+    constexpr int order = 6;
+    constexpr double part_of_nyquist = 0.05;  // derivatives of measured torques are of use at low frequencies only
+    twist_filters filters;
+    for (int j = 0; j < model.dof; ++j) {
+        filters.push_back(stiffness_of(model, j) > 0.0 ? std::optional(butterworth_lowpass(order, part_of_nyquist))
+                                                       : std::nullopt);
+    }
+    twist(model, motor, motor.tau, filters, link);
 }
 
 /// Runs the states along the samples; `signals` holds everything else.
@@ -182,6 +202,8 @@ filtered_samples completed(const idim_model_interface& model, const filtered_sam
         place += 3 * n;
         if (chi.size() > 0) {
             follow_links(model, samples, chi, result);
+        } else if (samples.tau.size() > 0) {
+            follow_measured_torque(model, samples, result);
         }
     }
     if (model.needs_rigid_torque != 0 && chi.size() > 0) {

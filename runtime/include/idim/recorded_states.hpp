@@ -20,8 +20,8 @@ filtered_samples earlier(const filtered_samples& samples, double shift);
 /// temperatures, states of effects run from the first sample on, and where there are soft transmissions the motion of
 /// the links, q_link = q_motor - tau_rigid(q_link) / K with its differences, solved by fixed point below the
 /// frequency at which the links swing behind their motors; that of the motors
-/// is then a signal. `chi` [b]: where it is empty the links move with the motors, and the measured torque stands for
-/// that of the links.
+/// is then a signal. `chi` [b]: where it is empty the measured torque stands for that
+/// of the links.
 filtered_samples completed(const idim_model_interface& model, const filtered_samples& samples,
                            const Eigen::VectorXd& chi);
 
