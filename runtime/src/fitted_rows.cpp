@@ -46,14 +46,18 @@ fitted_rows fit_rows(const idim_model_interface& model, const std::vector<filter
     }
     const std::vector<row_selection> kept = selections(fit.rows);
     std::vector<iteration> steps;
+    // The inertia J behind a soft transmission comes out as J^2 / J_0 from rows with J_0: full steps go to and fro,
+    // half steps are Newton's for the square root.
+    const double share = has_soft_joint(model) ? 0.5 : 1.0;
+    Eigen::VectorXd at = fit.result.chi;
     double change = 1.0;
     for (int step = 0; step < most_steps && change > settled && fit.result.chi.size() > 0; ++step) {
-        const Eigen::VectorXd before = fit.result.chi;
-        steps.push_back({before, fit.result.residual.relative_error});
-        fit.rows = with_log_columns(model, observe(model, logs, choice, kept, before.head(model.n_base)));
+        steps.push_back({fit.result.chi, fit.result.residual.relative_error});
+        at += step == 0 ? Eigen::VectorXd::Zero(at.size()) : Eigen::VectorXd(share * (fit.result.chi - at));
+        fit.rows = with_log_columns(model, observe(model, logs, choice, kept, at.head(model.n_base)));
         fit.result = least_squares(fit.rows, method);
         if (fit.result.chi.size() > 0) {
-            change = change_of_torque(fit.rows, fit.result.chi - before);
+            change = change_of_torque(fit.rows, fit.result.chi - at);
         }
     }
     if (fit.result.chi.size() > 0) {

@@ -19,14 +19,6 @@ double stiffness_of(const idim_model_interface& model, int joint) {
     return model.joint_stiffness == nullptr ? 0.0 : model.joint_stiffness[joint];
 }
 
-bool has_soft_joint(const idim_model_interface& model) {
-    bool soft = false;
-    for (int j = 0; j < model.dof; ++j) {
-        soft = soft || stiffness_of(model, j) > 0.0;
-    }
-    return soft;
-}
-
 /// Whether the model reads anything but motion, time and temperatures.
 bool needs_completion(const idim_model_interface& model) {
     return model.n_states > 0 || model.needs_rigid_torque != 0 || has_soft_joint(model);
@@ -169,6 +161,14 @@ void run_states(const idim_model_interface& model, const filtered_samples& sampl
 }
 
 }  // namespace
+
+bool has_soft_joint(const idim_model_interface& model) {
+    bool soft = false;
+    for (int j = 0; j < model.dof; ++j) {
+        soft = soft || stiffness_of(model, j) > 0.0;
+    }
+    return soft;
+}
 
 bool depends_on_parameters(const idim_model_interface& model) {
     return model.needs_rigid_torque != 0 || has_soft_joint(model);

@@ -311,8 +311,8 @@ TEST(DeclaredEffect, JointElasticityPutsTheLinkBehindItsMotor) {
     const test_model model(
         folder.write("swing.yaml",
                      "name: swing\njoints:\n  - {name: j1, alpha: pi/2, theta: q}\neffects:\n  - rotor_inertia\n"
-                     "  - viscous_friction\n  - {effect: joint_elasticity, shape: {K: 2000}}\n"));
-    const double J = 1.5, G = 9.81 * 0.8, K = 2000.0, Ia = 0.4, Fv = 3.0;
+                     "  - viscous_friction\n  - {effect: joint_elasticity, shape: {K: 20000}}\n"));
+    const double J = 1.5, G = 9.81 * 0.8, K = 20000.0, Ia = 0.4, Fv = 3.0;
     filtered_samples log;
     log.rate = 1000.0;
     constexpr Eigen::Index samples = 12000;

@@ -12,6 +12,9 @@ namespace idim {
 /// they are those of an estimate.
 bool depends_on_parameters(const idim_model_interface& model);
 
+/// Whether a transmission is not rigid.
+bool has_soft_joint(const idim_model_interface& model);
+
 /// Samples at t - shift, by cubic interpolation; the first and last sample stand for what is outside the log. The
 /// torque stays as it is.
 filtered_samples earlier(const filtered_samples& samples, double shift);
