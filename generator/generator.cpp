@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "backend/model_manifest.hpp"
+#include "dynamics/effect_terms.hpp"
 #include "emit/content_hash.hpp"
 #include "emit/manifest_file.hpp"
 
@@ -22,6 +23,7 @@ robot_model load(const std::string& robot_file, const std::string& templates) {
     if (model.tree.dof() == 0) {
         throw input_error({robot_file, 0, "joints"}, "expected at least one revolute or prismatic joint");
     }
+    tilt_gravity(model.description.effects, model.effects, model.tree);
     model.parameters = list_parameters(model.tree, model.description.effects, model.effects);
     model.base = find_base_parameters(model.tree, model.parameters);
     return model;
@@ -32,7 +34,8 @@ base_report report(const robot_model& model) {
     result.robot = model.description.name;
     result.notes = model.description.notes;
     for (const base_parameter& base : model.base.parameters) {
-        result.parameters.push_back({base.name, base.unit, base.formula});
+        result.parameters.push_back(
+            {base.name, base.unit, base.formula, model.parameters.all[base.standard].per_log});
     }
     for (const std::size_t p : model.base.without_effect) {
         result.without_effect.push_back(model.parameters.all[p].name);
@@ -55,7 +58,7 @@ std::string hash_inputs(const robot_model& model, const generation_options& opti
     text += options.derivatives ? "derivatives\n" : "";
     for (const effect_description& effect : model.effects) {
         text += fmt::format("effect {} {} {} {}\n", effect.name, static_cast<int>(effect.scope), effect.acts_on_both,
-                            effect.torque.text);
+                            law_of(effect));
         for (const linear_coefficient& coefficient : effect.linear) {
             text += fmt::format("  {} {} {}\n", coefficient.name, coefficient.unit,
                                 coefficient.min ? fmt::format("{}", *coefficient.min) : "free");

@@ -131,6 +131,13 @@ regrouping::regrouping(const standard_regressor& W, const kinematic_tree& tree, 
 std::vector<std::size_t> regrouping::without_effects(const std::vector<std::size_t>& columns) const {
     std::vector<std::size_t> result;
     std::copy_if(columns.begin(), columns.end(), std::back_inserter(result),
+                 [this](std::size_t p) { return parameters_.all[p].is_of_link(); });
+    return result;
+}
+
+std::vector<std::size_t> regrouping::inertial(const std::vector<std::size_t>& columns) const {
+    std::vector<std::size_t> result;
+    std::copy_if(columns.begin(), columns.end(), std::back_inserter(result),
                  [this](std::size_t p) { return parameters_.all[p].kind != parameter_kind::effect; });
     return result;
 }
@@ -199,7 +206,7 @@ regrouping::link_relation regrouping::relation_of(int link) const {
     for (int at = link; at >= 0 && inner.empty();) {
         joints.push_back(at);
         at = tree_.joints[static_cast<std::size_t>(at)].antecedent;
-        inner = without_effects(columns_of(positions(W_.columns), at));
+        inner = inertial(columns_of(positions(W_.columns), at));
     }
     relation.columns.insert(relation.columns.end(), inner.begin(), inner.end());
     relation.groups = constants_of(joints);

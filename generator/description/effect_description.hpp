@@ -61,6 +61,9 @@ struct effect_description {
     std::string about;
 };
 
+/// What an effect does, in one line: its torque and its states, or its kind.
+std::string law_of(const effect_description& effect);
+
 /// Reads one effect file. Throws input_error.
 effect_description read_effect(const std::string& file);
 

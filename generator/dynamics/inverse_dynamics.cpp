@@ -68,6 +68,12 @@ std::vector<ex> joint_torques(symbolic_model& model, const kinematic_tree& tree,
 
 namespace {
 
+/// The torque as a drive with an error of its gain records it.
+ex scaled(symbolic_model& model, const ex& gain, const std::string& name, const ex& torque) {
+    return gain.is_equal(1) ? model.assign(name, torque)
+                            : model.assign(name, gain * model.assign(name + "_joint", torque));
+}
+
 symbolic_model torque_model(const kinematic_tree& tree, const standard_parameters& parameters,
                             const parameter_selection& selection, const motion_inputs& inputs, const std::string& array,
                             bool with_effects) {
@@ -76,11 +82,16 @@ symbolic_model torque_model(const kinematic_tree& tree, const standard_parameter
     declare_signals(model, parameters);
     const std::vector<link_frame> frames = declare_motion(model, tree, inputs);
     const std::vector<ex> torque = joint_torques(model, tree, frames, values, inputs);
+    for (std::size_t i = 0; i < torque.size() && with_effects && parameters.uses_rigid_torque; ++i) {
+        model.define(parameters.rigid_torque[i], torque[i]);
+    }
     for (int i = 0; i < tree.dof(); ++i) {
         const auto at = static_cast<std::size_t>(i);
         const ex effects = with_effects ? effect_torque(parameters, values, i) : ex(0);
-        const ex still = inputs.acceleration ? effects : without_acceleration(effects, tree);
-        model.output(array, i, model.assign(array + std::to_string(i + 1), torque[at] + still));
+        const ex still =
+            inputs.acceleration ? effects : without_acceleration(parameters.without_elasticity(tree, effects), tree);
+        const std::string name = array + std::to_string(i + 1);
+        model.output(array, i, scaled(model, parameters.drives[at].gain, name, torque[at] + still));
     }
     return model;
 }
@@ -103,6 +114,18 @@ symbolic_model inverse_dynamics_model(const kinematic_tree& tree, const standard
 symbolic_model bias_model(const kinematic_tree& tree, const standard_parameters& parameters,
                           const parameter_selection& selection) {
     return torque_model(tree, parameters, selection, {true, false, true}, "N", true);
+}
+
+symbolic_model rigid_torque_model(const kinematic_tree& tree, const standard_parameters& parameters,
+                                  const parameter_selection& selection) {
+    symbolic_model model(tree);
+    const parameter_values values(model, parameters, selection);
+    const std::vector<link_frame> frames = declare_motion(model, tree, {});
+    const std::vector<ex> torque = joint_torques(model, tree, frames, values, {});
+    for (std::size_t i = 0; i < torque.size(); ++i) {
+        model.output("tau_rigid", static_cast<int>(i), model.assign("rigid" + std::to_string(i + 1), torque[i]));
+    }
+    return model;
 }
 
 symbolic_model gravity_model(const kinematic_tree& tree, const standard_parameters& parameters,

@@ -71,7 +71,9 @@ class regressor_builder {
         : tree_(tree), parameters_(parameters), selection_(selection), model_(tree) {}
 
     symbolic_model run() {
+        declare_gates(model_, parameters_);
         declare_signals(model_, parameters_);
+        declare_rigid_torque(model_, parameters_);
         frames_ = declare_motion(model_, tree_, {});
         links_ = propagate_motion(model_, tree_, frames_, {});
         for (std::size_t j = 0; j < tree_.joints.size(); ++j) {
@@ -109,9 +111,11 @@ class regressor_builder {
             if (parameter.joint != link) {
                 continue;
             }
-            const ex value = parameter.kind != parameter_kind::effect
-                                 ? column(model_, links_[static_cast<std::size_t>(link)], axis, parameter.kind, label)
-                                 : parameter.column_at(row);
+            ex value = parameter.kind != parameter_kind::effect
+                           ? column(model_, links_[static_cast<std::size_t>(link)], axis, parameter.kind, label)
+                           : parameter.column_at(row);
+            value *= parameters_.drives[static_cast<std::size_t>(row)].gain;
+            value *= parameter.gate >= 0 ? gate_of(parameters_, parameter) : ex(1);
             const std::string name = fmt::format("W{}_{}", row + 1, selection_.names[k]);
             model_.output("W", row * static_cast<int>(selection_.kept.size()) + static_cast<int>(k),
                           model_.assign(name, value));

@@ -41,13 +41,16 @@ json parameters_json(const identification& found) {
     json list = json::array();
     const Eigen::VectorXd std = found.result.deviations();
     for (Eigen::Index k = 0; k < found.result.chi.size(); ++k) {
-        const auto& parameter = found.robot.generated.base.parameters[static_cast<std::size_t>(k)];
+        const auto& parameter = parameter_of(found.robot, found.rows, k);
         list.push_back({{"name", parameter.name},
                         {"value", found.result.chi[k]},
                         {"std", std[k]},
                         {"relative_std_percent", finite(relative_percent(std[k], found.result.chi[k]))},
                         {"unit", parameter.unit},
                         {"regroups", parameter.regroups}});
+        if (const int log = column_of(found.rows, static_cast<int>(k)).log; log >= 0) {
+            list.back()["log"] = found.rows.blocks[static_cast<std::size_t>(log)].file;
+        }
     }
     return list;
 }
@@ -55,7 +58,7 @@ json parameters_json(const identification& found) {
 json essential_json(const identification& found) {
     json kept = json::array();
     for (const int k : found.essential.kept) {
-        kept.push_back({{"name", found.robot.generated.base.parameters[static_cast<std::size_t>(k)].name},
+        kept.push_back({{"name", name_of(found.robot, found.rows, k)},
                         {"value", found.essential.chi[k]},
                         {"std", found.essential.std[k]}});
     }
@@ -68,7 +71,7 @@ json essential_json(const identification& found) {
 json names_json(const identification& found, const std::vector<int>& columns) {
     json names = json::array();
     for (const int k : columns) {
-        names.push_back(found.robot.generated.base.parameters[static_cast<std::size_t>(k)].name);
+        names.push_back(name_of(found.robot, found.rows, k));
     }
     return names;
 }
@@ -108,16 +111,16 @@ void print_parameters(const identification& found) {
     const Eigen::VectorXd std = found.result.deviations();
     fmt::print("  {:<10} {:>13} {:>11} {:>8}  {}\n", "parameter", "value", "std", "%", "unit");
     for (Eigen::Index k = 0; k < found.result.chi.size(); ++k) {
-        const auto& parameter = found.robot.generated.base.parameters[static_cast<std::size_t>(k)];
-        fmt::print("  {:<10} {:>13.6g} {:>11.3g} {:>8.2f}  {}\n", parameter.name, found.result.chi[k], std[k],
-                   relative_percent(std[k], found.result.chi[k]), parameter.unit);
+        const auto& parameter = parameter_of(found.robot, found.rows, k);
+        fmt::print("  {:<10} {:>13.6g} {:>11.3g} {:>8.2f}  {}\n", name_of(found.robot, found.rows, k),
+                   found.result.chi[k], std[k], relative_percent(std[k], found.result.chi[k]), parameter.unit);
     }
 }
 
 void print_essential(const identification& found) {
     std::vector<std::string> dropped;
     for (const int k : found.essential.dropped) {
-        dropped.push_back(found.robot.generated.base.parameters[static_cast<std::size_t>(k)].name);
+        dropped.push_back(name_of(found.robot, found.rows, k));
     }
     fmt::print("  essential: {} of {} parameters, relative error {:.2f} %; without: {}\n", found.essential.kept.size(),
                found.result.chi.size(), 100.0 * found.essential.residual.relative_error,
@@ -145,8 +148,7 @@ void print_truth(const identification& found, const Eigen::VectorXd& truth) {
     const Eigen::VectorXd std = found.result.deviations();
     fmt::print("  {:<10} {:>13} {:>13} {:>22}\n", "parameter", "truth", "estimate", "error in deviations");
     for (Eigen::Index k = 0; k < truth.size(); ++k) {
-        fmt::print("  {:<10} {:>13.6g} {:>13.6g} {:>22.2f}\n",
-                   found.robot.generated.base.parameters[static_cast<std::size_t>(k)].name, truth[k],
+        fmt::print("  {:<10} {:>13.6g} {:>13.6g} {:>22.2f}\n", name_of(found.robot, found.rows, k), truth[k],
                    found.result.chi[k], (found.result.chi[k] - truth[k]) / std[k]);
     }
 }
@@ -155,7 +157,7 @@ void print_truth(const identification& found, const Eigen::VectorXd& truth) {
 std::string explain(const identification& found, const std::vector<std::string>& at_rest) {
     std::vector<std::string> names;
     for (const int k : found.result.not_excited) {
-        names.push_back(found.robot.generated.base.parameters[static_cast<std::size_t>(k)].name);
+        names.push_back(name_of(found.robot, found.rows, k));
     }
     std::string text = fmt::format("the data does not excite {}: rank {} of {}", fmt::join(names, " "),
                                    found.result.rank, found.robot.generated.base.parameters.size());

@@ -5,7 +5,10 @@
 
 #include "identified_parameters.hpp"
 #include "idim/control_law.hpp"
+#include "idim/fitted_rows.hpp"
 #include "idim/input_error.hpp"
+#include "idim/log_parameters.hpp"
+#include "idim/recorded_states.hpp"
 #include "idim/total_least_squares.hpp"
 
 namespace idim::cli {
@@ -52,7 +55,18 @@ method_runner::method_runner(const loaded_robot& robot, const std::string& robot
       experiment_{robot.model(), logs, filter} {}
 
 observation method_runner::all_rows() const {
-    return observe_logs(robot_, logs_, filter_);
+    std::vector<filtered_samples> samples;
+    for (const idim::log& log : logs_) {
+        samples.push_back(filter_log(log, filter_));
+    }
+    if (!depends_on_parameters(robot_.model())) {
+        return with_log_columns(robot_.model(), observe(robot_.model(), samples, filter_));
+    }
+    fitted_rows fit = fit_rows(robot_.model(), samples, filter_, least_squares_method::wls);
+    if (fit.result.chi.size() > 0 && !fit.result.converged) {
+        throw data_error(fit.result.message);
+    }
+    return std::move(fit.rows);
 }
 
 const simulated_loops& method_runner::loops() {

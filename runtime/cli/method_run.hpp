@@ -40,7 +40,8 @@ class method_runner {
     method_runner(const loaded_robot& robot, const std::string& robot_file, const std::vector<idim::log>& logs,
                   const filter_choice& filter, const method_request& request);
 
-    /// Rows of the methods that do not simulate.
+    /// Rows of the methods that do not simulate; where they depend on the parameters (fit_rows) those of the weighted
+    /// least squares estimate. Throws data_error if they do not settle.
     observation all_rows() const;
     /// Rows without the transient of the simulated loop, which methods are to be compared on. Throws data_error if
     /// least squares, which they start from, finds a parameter that is not excited.

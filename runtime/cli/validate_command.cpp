@@ -2,6 +2,7 @@
 
 #include "identified_parameters.hpp"
 #include "idim/input_error.hpp"
+#include "idim/log_parameters.hpp"
 #include "measured_motion.hpp"
 #include "simulated_loop.hpp"
 
@@ -77,8 +78,9 @@ int run(const validate_options& options) {
     const identified_parameters parameters = read_parameters(options.result, robot);
     const std::vector<idim::log> logs = read_logs(robot, options.logs);
     const filter_choice filter = filter_for(options, parameters, logs);
-    const observation all = observe_logs(robot, logs, filter);
-    const error_summary total = errors(all, parameters.chi);
+    const observation all = with_log_columns(robot.model(), observe_logs(robot, logs, filter, parameters.chi));
+    const Eigen::VectorXd chi = with_log_parameters(robot.model(), all, parameters.chi);
+    const error_summary total = errors(all, chi);
     json content = to_json(total, robot);
     std::optional<simulated_validation> simulated;
     if (options.simulate) {
@@ -96,7 +98,7 @@ int run(const validate_options& options) {
         print(total, robot);
     }
     for (const observation_block& block : all.blocks) {
-        const error_summary one = errors({{block}, all.dof, all.n_base}, parameters.chi);
+        const error_summary one = errors({{block}, all.dof, all.n_base}, chi);
         json entry = {{"log", block.file}};
         entry.update(to_json(one, robot));
         content["logs"].push_back(entry);
