@@ -13,10 +13,17 @@ void mass_matrix(const double*, const double* chi, double* M) {
     M[0] = chi[0];
 }
 
+double friction(double speed, const double* chi) {
+    return chi[1] * speed + chi[2] * (static_cast<double>(speed > 0) - static_cast<double>(speed < 0));
+}
+
+void bias(const double*, const double* qd, double, const double*, const double* chi, double* N) {
+    N[0] = friction(qd[0], chi);
+}
+
 int forward_dynamics(const double*, const double* qd, const double* tau, double, const double*, const double* chi,
                      double* qdd) {
-    const double friction = chi[1] * qd[0] + chi[2] * (static_cast<double>(qd[0] > 0) - static_cast<double>(qd[0] < 0));
-    qdd[0] = (tau[0] - friction) / chi[0];
+    qdd[0] = (tau[0] - friction(qd[0], chi)) / chi[0];
     return chi[0] > 0.0 ? 0 : 1;
 }
 
@@ -32,6 +39,7 @@ idim_model_interface rail() {
     model.joint_names = joint_names;
     model.joint_is_prismatic = joint_is_prismatic;
     model.mass_matrix = mass_matrix;
+    model.bias = bias;
     model.forward_dynamics = forward_dynamics;
     return model;
 }
