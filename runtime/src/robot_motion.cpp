@@ -173,6 +173,7 @@ bool robot_motion::release_one(double t) {
     }
     if (released >= 0) {
         side_[static_cast<std::size_t>(released)] = direction;
+        controlled_.reset();
     }
     return released >= 0;
 }
@@ -194,16 +195,16 @@ void robot_motion::plain_step(state& x, double t, double h) {
 }
 
 /// One step of at most h; returns its length, and leaves in h what the next may have.
-double robot_motion::step(double t, double& h) {
+double robot_motion::step(double t, double& h, double shortest) {
     if (options_.method == integrator::rk4) {
         plain_step(x_, t, h);
         return h;
     }
-    const double shortest = 1e-6 * h;  // across a jump no step is short enough for the tolerance
     const auto system = [this](const state& at, state& rate, double time) { derivative(at, rate, time); };
     double reached = t;
     while (controlled_.try_step(system, x_, reached, h) == boost::numeric::odeint::fail) {
-        if (h < shortest) {
+        if (h < shortest) {  // across a jump no step is short enough for the tolerance
+            h = shortest;
             plain_step(x_, t, h);
             controlled_.reset();
             return h;
@@ -306,8 +307,8 @@ void robot_motion::advance(double t, double period, const Eigen::VectorXd& tau) 
     while (end - t > rounding && !failure_) {
         double h = std::min(options_.method == integrator::rk4 ? period / steps : next, end - t);
         before_ = x_;
-        const double taken = step(t, h);
-        next = h;
+        const double taken = step(t, h, 1e-6 * period);
+        next = std::max(h, 1e-6 * period);
         t += options_.friction == friction_handling::located ? locate(t, taken) : taken;
         check(t);
         settle(t);

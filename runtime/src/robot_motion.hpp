@@ -41,7 +41,7 @@ class robot_motion {
     void settle(double t);
     bool release_one(double t);
     bool any_rest() const;
-    double step(double t, double& h);
+    double step(double t, double& h, double shortest);
     void plain_step(state& x, double t, double h);
     double lowest_advance(const state& x, const std::vector<int>& joints) const;
     double locate(double t, double h);
