@@ -37,7 +37,7 @@ robot_motion::robot_motion(const idim_model_interface& model, const Eigen::Vecto
       M_(n_, n_),
       x_(2 * static_cast<std::size_t>(n_)),
       side_(static_cast<std::size_t>(n_), side::open),
-      controlled_(boost::numeric::odeint::make_controlled<dopri5>(options.tolerance, options.tolerance)) {
+      controlled_(controller::error_checker_type(options.tolerance, options.tolerance)) {
     std::copy(q.data(), q.data() + n_, x_.begin());
     std::copy(qd.data(), qd.data() + n_, x_.begin() + n_);
     for (int j = 0; j < n_; ++j) {

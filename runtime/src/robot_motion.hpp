@@ -1,7 +1,6 @@
 #pragma once
 
 #include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
-#include <boost/numeric/odeint/stepper/generation/generation_runge_kutta_dopri5.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 #include <vector>
@@ -28,6 +27,7 @@ class robot_motion {
   private:
     using state = std::vector<double>;  // q, then qd
     using dopri5 = boost::numeric::odeint::runge_kutta_dopri5<state>;
+    using controller = boost::numeric::odeint::controlled_runge_kutta<dopri5>;
 
     /// Side of its friction jump that a joint is on; `open` where nothing is frozen.
     enum class side : signed char { backward = -1, rest = 0, forward = 1, open = 2 };
@@ -59,7 +59,7 @@ class robot_motion {
     std::vector<bool> jumps_;
     boost::numeric::odeint::runge_kutta4<state> rk4_;
     dopri5 dopri5_;
-    boost::numeric::odeint::controlled_runge_kutta<dopri5> controlled_;
+    controller controlled_;
     std::optional<simulation_failure> failure_;
 };
 
