@@ -13,10 +13,17 @@ void mass_matrix(const double*, const double* chi, double* M) {
     M[0] = chi[0];
 }
 
+double friction(double speed, const double* chi) {
+    return chi[1] * speed + chi[2] * (static_cast<double>(speed > 0) - static_cast<double>(speed < 0));
+}
+
+void bias(const double*, const double* qd, double, const double*, const double* chi, double* N) {
+    N[0] = friction(qd[0], chi);
+}
+
 int forward_dynamics(const double*, const double* qd, const double* tau, double, const double*, const double* chi,
                      double* qdd) {
-    const double friction = chi[1] * qd[0] + chi[2] * (static_cast<double>(qd[0] > 0) - static_cast<double>(qd[0] < 0));
-    qdd[0] = (tau[0] - friction) / chi[0];
+    qdd[0] = (tau[0] - friction(qd[0], chi)) / chi[0];
     return chi[0] > 0.0 ? 0 : 1;
 }
 
@@ -32,6 +39,7 @@ idim_model_interface rail() {
     model.joint_names = joint_names;
     model.joint_is_prismatic = joint_is_prismatic;
     model.mass_matrix = mass_matrix;
+    model.bias = bias;
     model.forward_dynamics = forward_dynamics;
     return model;
 }
@@ -143,6 +151,105 @@ TEST(Simulation, FailuresNameTimeAndJoint) {
     const auto wild = idim::tune_pd_cascade(10.0, one(500.0), one(1.0), one(3.0), one(1.0));
     EXPECT_NE(message((Eigen::VectorXd(3) << 3.0, 0.0, 0.0).finished(), wild).find("diverges at t = "),
               std::string::npos);
+}
+
+idim::simulated_motion slide(const Eigen::VectorXd& chi, idim::integration_options integration, double rate) {
+    static const idim_model_interface model = rail();
+    idim::pd_cascade coasting;  // no command at all
+    coasting.rate = rate;
+    coasting.drive_gain = coasting.kp = coasting.kv = one(0.0);
+    idim::log reference = step_reference(0.0, 2.0);
+    idim::simulated_loop_setup setup{model, chi, coasting, reference};
+    setup.integration = integration;
+    setup.start_velocity = one(1.0);
+    return idim::simulate(setup);
+}
+
+TEST(Simulation, ASlidingMassStopsWhereFrictionStopsItAndStays) {
+    // v^2 M / (2 Fc) with v = 1 m/s, M = 3 kg, Fc = 2.2 N; the stop lies between two samples and two steps.
+    const Eigen::VectorXd chi = (Eigen::VectorXd(3) << 3.0, 0.0, 2.2).finished();
+    for (const auto method : {idim::integrator::rk4, idim::integrator::dopri5}) {
+        idim::integration_options integration;
+        integration.method = method;
+        const auto motion = slide(chi, integration, 70.0);
+        const Eigen::Index last = motion.truth.samples() - 1;
+        // Constant deceleration: exact for both methods but for rounding and the 1e-12 m/s of the located event.
+        EXPECT_NEAR(motion.truth.q(last, 0), 3.0 / 4.4, 1e-10);
+        EXPECT_EQ(motion.truth.qd(last, 0), 0.0);
+        EXPECT_EQ(motion.truth.qdd(last, 0), 0.0);
+    }
+}
+
+TEST(Simulation, ViscousAndDryFrictionStopAMassInClosedForm) {
+    // M v' = -Fv v - Fc: x = M/Fv (v0 - Fc/Fv ln(1 + Fv v0 / Fc)).
+    const Eigen::VectorXd chi = (Eigen::VectorXd(3) << 2.0, 1.5, 2.0).finished();
+    const double expected = 2.0 / 1.5 * (1.0 - 2.0 / 1.5 * std::log(1.0 + 1.5 / 2.0));
+    const auto motion = slide(chi, {}, 1000.0);
+    EXPECT_NEAR(motion.truth.q(motion.truth.samples() - 1, 0), expected, 1e-10);  // rk4 at 1 ms of a 1.3 s constant
+    idim::integration_options regularised;
+    regularised.friction = idim::friction_handling::regularised;
+    regularised.band = 1e-4;
+    // It still creeps through the band, M band / Fc * band at most.
+    EXPECT_NEAR(slide(chi, regularised, 20000.0).truth.q.bottomRows(1)(0, 0), expected, 1e-7);
+}
+
+TEST(Simulation, AJointHoldsAgainstLessThanItsFrictionAndBreaksAwayBeyondIt) {
+    const idim_model_interface model = rail();
+    const Eigen::VectorXd chi = (Eigen::VectorXd(3) << 2.0, 0.0, 5.0).finished();
+    idim::pd_cascade law;
+    law.rate = 100.0;
+    law.drive_gain = law.kp = one(1.0);
+    law.kv = one(1.0);
+    idim::log ramp = step_reference(0.0, 10.0);
+    ramp.t << 0.0, 5.0, 10.0;
+    ramp.qr << 0.0, 5.0, 10.0;  // the command is the time while nothing moves: breaks away after 5 s
+    const auto motion = idim::simulate(model, chi, law, ramp, {});
+    EXPECT_EQ(motion.truth.q(500, 0), 0.0);
+    EXPECT_EQ(motion.truth.q(501, 0), 0.0);  // the command of 5.01 N is only given at this sample
+    EXPECT_GT(motion.truth.q(502, 0), 0.0);
+}
+
+TEST(Simulation, ColouredNoiseKeepsItsDeviationAndItsCorrelationTime) {
+    const idim_model_interface model = rail();
+    const Eigen::VectorXd chi = (Eigen::VectorXd(3) << 3.0, 0.0, 0.0).finished();
+    const auto law = idim::tune_pd_cascade(1000.0, one(4.0), one(1.0), one(3.0), one(1.0));
+    idim::measurement_noise noise{one(0.0), one(0.2), 3};
+    noise.torque_correlation = 0.005;
+    const idim::log reference = step_reference(0.0, 100.0);
+    const auto motion = idim::simulate(model, chi, law, reference, noise);
+    const Eigen::VectorXd error = motion.measured.tau.col(0);  // nothing moves: all of it is noise
+    const Eigen::Index n = error.size();
+    const double variance = error.squaredNorm() / static_cast<double>(n);
+    const double lagged = error.head(n - 5).dot(error.tail(n - 5)) / static_cast<double>(n - 5);
+    // 1e5 samples, a tenth of them independent: 1 % standard error of the variance, four of them.
+    EXPECT_NEAR(variance, 0.04, 0.0016);
+    EXPECT_NEAR(lagged / variance, std::exp(-1.0), 0.04);
+}
+
+TEST(Simulation, EncodersRoundToTheirStep) {
+    const idim_model_interface model = rail();
+    const Eigen::VectorXd chi = (Eigen::VectorXd(3) << 3.0, 0.0, 0.0).finished();
+    const auto law = idim::tune_pd_cascade(1000.0, one(4.0), one(1.0), one(3.0), one(1.0));
+    idim::measurement_noise noise;
+    noise.resolution = one(0.0078125);  // 2^-7: multiples are exact
+    const auto motion = idim::simulate(model, chi, law, step_reference(0.3, 3.0), noise);
+    const Eigen::VectorXd steps = motion.measured.q.col(0) / 0.0078125;
+    EXPECT_EQ(steps, Eigen::VectorXd(steps.array().round()));
+    EXPECT_LE((motion.measured.q - motion.truth.q).cwiseAbs().maxCoeff(), 0.5 * 0.0078125);
+    EXPECT_GT(steps.maxCoeff(), 30.0);
+}
+
+TEST(Simulation, AFailureKeepsTheFiniteSamplesBeforeIt) {
+    const idim_model_interface model = rail();
+    const Eigen::VectorXd chi = (Eigen::VectorXd(3) << 3.0, 0.0, 0.0).finished();
+    const auto wild = idim::tune_pd_cascade(10.0, one(500.0), one(1.0), one(3.0), one(1.0));
+    const idim::log reference = step_reference(1.0, 100.0);
+    const auto motion = idim::simulate({model, chi, wild, reference});
+    ASSERT_TRUE(motion.failure.has_value());
+    EXPECT_EQ(motion.failure->joint, 0);
+    EXPECT_GT(motion.truth.samples(), 0);
+    EXPECT_LE(motion.truth.t[motion.truth.samples() - 1], motion.failure->time);
+    EXPECT_TRUE(motion.truth.q.allFinite() && motion.truth.qdd.allFinite() && motion.measured.tau.allFinite());
 }
 
 }  // namespace
