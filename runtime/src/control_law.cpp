@@ -6,13 +6,38 @@
 
 namespace idim {
 
-Eigen::VectorXd pd_cascade::torque(const Eigen::VectorXd& qr, const Eigen::VectorXd& q,
-                                   const Eigen::VectorXd& qd) const {
-    Eigen::VectorXd v = kv.cwiseProduct(kp.cwiseProduct(qr - q) - qd);
+void control_law::tune(const Eigen::VectorXd&) {}
+
+void control_law::limited(const Eigen::VectorXd&, const Eigen::VectorXd&) {}
+
+void control_law::forget() {}
+
+void control_law::reset() {
+    late_.clear();
+    forget();
+}
+
+Eigen::VectorXd control_law::command(const control_sample& sample) {
+    const Eigen::VectorXd wanted = unlimited(sample);
+    Eigen::VectorXd given = wanted;
     if (saturation.size() > 0) {
-        v = v.cwiseMax(-saturation).cwiseMin(saturation);
+        given = wanted.cwiseMax(-saturation).cwiseMin(saturation);
+        limited(wanted, given);
     }
-    return drive_gain.cwiseProduct(v);
+    if (delay == 0) {
+        return given;
+    }
+    late_.push_back(std::move(given));
+    if (late_.size() <= static_cast<std::size_t>(delay)) {
+        return Eigen::VectorXd::Zero(wanted.size());
+    }
+    Eigen::VectorXd arrived = std::move(late_.front());
+    late_.pop_front();
+    return arrived;
+}
+
+Eigen::VectorXd control_law::torque(const control_sample& sample) {
+    return drive_gain.cwiseProduct(command(sample));
 }
 
 Eigen::VectorXd largest_inertia(const idim_model_interface& model, const Eigen::VectorXd& chi) {
@@ -31,16 +56,6 @@ Eigen::VectorXd largest_inertia(const idim_model_interface& model, const Eigen::
         largest = largest.cwiseMax(M.diagonal());
     }
     return largest;
-}
-
-pd_cascade tune_pd_cascade(double rate, const Eigen::VectorXd& wn, const Eigen::VectorXd& zeta,
-                           const Eigen::VectorXd& inertia, const Eigen::VectorXd& drive_gain) {
-    pd_cascade law;
-    law.rate = rate;
-    law.kp = wn.cwiseQuotient(2.0 * zeta);
-    law.kv = (2.0 * zeta.cwiseProduct(wn).cwiseProduct(inertia)).cwiseQuotient(drive_gain);
-    law.drive_gain = drive_gain;
-    return law;
 }
 
 }  // namespace idim

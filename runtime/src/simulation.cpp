@@ -1,12 +1,11 @@
 #include "idim/simulation.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <random>
 
 #include "idim/input_error.hpp"
+#include "robot_motion.hpp"
 
 namespace idim {
 
@@ -31,73 +30,52 @@ class gaussian {
     std::mt19937_64 random_;
 };
 
-/// Position and velocity under a torque that is held.
-class plant {
+/// First-order autoregression of Gaussian numbers, stationary from its first value on; white for time = 0.
+class coloured_noise {
   public:
-    plant(const idim_model_interface& model, const Eigen::VectorXd& chi, const Eigen::VectorXd& q)
-        : model_(model),
-          chi_(chi),
-          temperature_(Eigen::VectorXd::Constant(model.dof, 20.0)),
-          q_(q),
-          qd_(Eigen::VectorXd::Zero(model.dof)) {}
+    coloured_noise(const Eigen::VectorXd& deviation, Eigen::Index n, double time, double period)
+        : deviation_(deviation.size() > 0 ? deviation : Eigen::VectorXd::Zero(n)),
+          memory_(time > 0.0 ? std::exp(-period / time) : 0.0) {}
 
-    const Eigen::VectorXd& q() const { return q_; }
-    const Eigen::VectorXd& qd() const { return qd_; }
-
-    Eigen::VectorXd acceleration(double t, const Eigen::VectorXd& q, const Eigen::VectorXd& qd,
-                                 const Eigen::VectorXd& tau) const {
-        Eigen::VectorXd qdd(model_.dof);
-        const int joint =
-            model_.forward_dynamics(q.data(), qd.data(), tau.data(), t, temperature_.data(), chi_.data(), qdd.data());
-        if (joint != 0) {
-            throw data_error(
-                fmt::format("simulation at t = {:.4f} s: the inertia matrix is not positive definite at joint {}; the "
-                            "parameters are not physical",
-                            t, model_.joint_names[joint - 1]));
-        }
-        return qdd;
-    }
-
-    void step(double t, double h, const Eigen::VectorXd& tau) {
-        const Eigen::VectorXd a1 = acceleration(t, q_, qd_, tau);
-        const Eigen::VectorXd v2 = qd_ + 0.5 * h * a1;
-        const Eigen::VectorXd a2 = acceleration(t + 0.5 * h, q_ + 0.5 * h * qd_, v2, tau);
-        const Eigen::VectorXd v3 = qd_ + 0.5 * h * a2;
-        const Eigen::VectorXd a3 = acceleration(t + 0.5 * h, q_ + 0.5 * h * v2, v3, tau);
-        const Eigen::VectorXd v4 = qd_ + h * a3;
-        const Eigen::VectorXd a4 = acceleration(t + h, q_ + h * v3, v4, tau);
-        q_ += h / 6.0 * (qd_ + 2.0 * v2 + 2.0 * v3 + v4);
-        qd_ += h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
-        check(t + h);
+    Eigen::VectorXd operator()(gaussian& random) {
+        const Eigen::VectorXd fresh = random(deviation_);
+        value_ =
+            value_.size() == 0 ? fresh : Eigen::VectorXd(memory_ * value_ + std::sqrt(1.0 - memory_ * memory_) * fresh);
+        return value_;
     }
 
   private:
-    void check(double t) const {
-        constexpr double fastest = 1e4;  // rad/s or m/s: no robot moves like that
-        for (int j = 0; j < model_.dof; ++j) {
-            if (!(std::abs(qd_[j]) < fastest)) {
-                throw data_error(fmt::format(
-                    "simulation diverges at t = {:.4f} s, joint {}: lower the bandwidth or raise the rate of "
-                    "the control law",
-                    t, model_.joint_names[j]));
-            }
-        }
-    }
-
-    const idim_model_interface& model_;
-    const Eigen::VectorXd& chi_;
-    Eigen::VectorXd temperature_;
-    Eigen::VectorXd q_, qd_;
+    Eigen::VectorXd deviation_, value_;
+    double memory_;
 };
 
-/// Reference position at a time, linear between its samples.
-Eigen::VectorXd reference_at(const log& reference, double t) {
+/// What position sensors give.
+Eigen::VectorXd quantised(const Eigen::VectorXd& q, const Eigen::VectorXd& resolution) {
+    if (resolution.size() == 0) {
+        return q;
+    }
+    return (resolution.array() > 0.0).select(q.cwiseQuotient(resolution).array().round() * resolution.array(), q);
+}
+
+/// A signal of the reference at a time, linear between its samples.
+Eigen::VectorXd signal_at(const log& reference, const Eigen::MatrixXd& signal, double t) {
     const auto* first = reference.t.data();
     const auto* last = first + reference.t.size();
     const auto after = std::upper_bound(first, last, t) - first;
     const Eigen::Index k = std::clamp<Eigen::Index>(after - 1, 0, reference.t.size() - 2);
     const double share = std::clamp((t - reference.t[k]) / (reference.t[k + 1] - reference.t[k]), 0.0, 1.0);
-    return (1.0 - share) * reference.qr.row(k).transpose() + share * reference.qr.row(k + 1).transpose();
+    return (1.0 - share) * signal.row(k).transpose() + share * signal.row(k + 1).transpose();
+}
+
+/// Reference position, speed and acceleration at t.
+void follow_reference(const log& reference, double period, control_sample& sample) {
+    sample.qr = signal_at(reference, reference.qr, sample.t);
+    const Eigen::VectorXd after = signal_at(reference, reference.qr, sample.t + period);
+    const Eigen::VectorXd before = signal_at(reference, reference.qr, sample.t - period);
+    sample.qdr = reference.qd.size() > 0 ? signal_at(reference, reference.qd, sample.t)
+                                         : Eigen::VectorXd((after - before) / (2.0 * period));
+    sample.qddr = reference.qdd.size() > 0 ? signal_at(reference, reference.qdd, sample.t)
+                                           : Eigen::VectorXd((after - 2.0 * sample.qr + before) / (period * period));
 }
 
 void allocate(log& data, Eigen::Index samples, Eigen::Index n, const std::string& name) {
@@ -108,42 +86,111 @@ void allocate(log& data, Eigen::Index samples, Eigen::Index n, const std::string
     }
 }
 
-}  // namespace
+/// Keeps the first `samples` of a motion that failed.
+void shorten(log& data, Eigen::Index samples) {
+    data.t.conservativeResize(samples);
+    for (Eigen::MatrixXd* signal : {&data.q, &data.tau, &data.qr, &data.qd, &data.qdd}) {
+        if (signal->size() > 0) {
+            signal->conservativeResize(samples, Eigen::NoChange);
+        }
+    }
+}
 
-simulated_motion simulate(const idim_model_interface& model, const Eigen::VectorXd& chi, const pd_cascade& law,
-                          const log& reference, const measurement_noise& noise, int substeps) {
-    const double period = 1.0 / law.rate;
-    const double start = reference.t[0];
-    const auto samples = static_cast<Eigen::Index>(std::floor(reference.duration() * law.rate + 1e-9)) + 1;
-    const Eigen::Index n = model.dof;
+simulated_motion empty_motion(Eigen::Index samples, Eigen::Index n) {
     simulated_motion motion;
     allocate(motion.measured, samples, n, "simulated");
     allocate(motion.truth, samples, n, "simulated without noise");
     motion.measured.qr.resize(samples, n);
     motion.truth.qd.resize(samples, n);
     motion.truth.qdd.resize(samples, n);
+    return motion;
+}
 
-    gaussian random(noise.seed);
+/// The sensors of one loop, and the random numbers behind them.
+class sensors {
+  public:
+    sensors(const measurement_noise& noise, Eigen::Index n, double period)
+        : noise_(noise),
+          random_(noise.seed),
+          position_(noise.position, n, noise.position_correlation, period),
+          torque_(noise.torque, n, noise.torque_correlation, period) {}
+
+    Eigen::VectorXd position(const Eigen::VectorXd& q) { return quantised(q + position_(random_), noise_.resolution); }
+    Eigen::VectorXd torque(const Eigen::VectorXd& tau) { return tau + torque_(random_); }
+    Eigen::VectorXd velocity(const Eigen::VectorXd& qd) {
+        return noise_.velocity.size() == 0 ? qd : Eigen::VectorXd(qd + random_(noise_.velocity));
+    }
+
+  private:
+    const measurement_noise& noise_;
+    gaussian random_;
+    coloured_noise position_, torque_;
+};
+
+Eigen::VectorXd either(const Eigen::VectorXd& given, const Eigen::VectorXd& usual) {
+    return given.size() > 0 ? given : usual;
+}
+
+}  // namespace
+
+Eigen::VectorXd reference_velocity(const log& reference, double period) {
+    const double start = reference.t[0];
+    return (signal_at(reference, reference.qr, start + period) - signal_at(reference, reference.qr, start)) / period;
+}
+
+simulated_motion simulate(const simulated_loop_setup& setup) {
+    const log& reference = setup.reference;
+    const std::unique_ptr<control_law> law = setup.law.clone();
+    law->reset();
+    const double period = 1.0 / law->rate;
+    const double start = reference.t[0];
+    const auto samples = static_cast<Eigen::Index>(std::floor(reference.duration() * law->rate + 1e-9)) + 1;
+    const Eigen::Index n = setup.model.dof;
+    simulated_motion motion = empty_motion(samples, n);
+    sensors seen(setup.noise, n, period);
+    robot_motion robot(setup.model, setup.chi, setup.integration,
+                       either(setup.start_position, signal_at(reference, reference.qr, start)),
+                       either(setup.start_velocity, Eigen::VectorXd::Zero(n)));
     Eigen::VectorXd held;  // torque of the period that ends
-    plant robot(model, chi, reference_at(reference, start));
+    control_sample sample;
     for (Eigen::Index k = 0; k < samples; ++k) {
-        const double t = start + static_cast<double>(k) * period;
-        const Eigen::VectorXd qr = reference_at(reference, t);
-        const Eigen::VectorXd q = robot.q() + random(noise.position);
-        const Eigen::VectorXd tau = law.torque(qr, q, robot.qd());
-        motion.measured.t[k] = motion.truth.t[k] = t;
-        motion.measured.q.row(k) = q;
-        held = k == 0 ? tau : held;
-        motion.measured.tau.row(k) = 0.5 * (held + tau) + random(noise.torque);
-        held = tau;
-        motion.measured.qr.row(k) = qr;
-        motion.truth.q.row(k) = robot.q();
-        motion.truth.qd.row(k) = robot.qd();
-        motion.truth.qdd.row(k) = robot.acceleration(t, robot.q(), robot.qd(), tau);
-        motion.truth.tau.row(k) = tau;
-        for (int s = 0; s < substeps; ++s) {
-            robot.step(t + s * period / substeps, period / substeps, tau);
+        sample.t = start + static_cast<double>(k) * period;
+        follow_reference(reference, period, sample);
+        sample.q = seen.position(robot.q());
+        sample.qd = seen.velocity(robot.qd());
+        const Eigen::VectorXd tau = law->torque(sample);
+        const Eigen::VectorXd qdd = robot.acceleration(sample.t, tau);
+        if (!robot.failure()) {
+            motion.measured.t[k] = motion.truth.t[k] = sample.t;
+            motion.measured.q.row(k) = sample.q;
+            motion.measured.tau.row(k) = seen.torque(0.5 * (either(held, tau) + tau));
+            motion.measured.qr.row(k) = sample.qr;
+            motion.truth.q.row(k) = robot.q();
+            motion.truth.qd.row(k) = robot.qd();
+            motion.truth.qdd.row(k) = qdd;
+            motion.truth.tau.row(k) = tau;
+            robot.advance(sample.t, period, tau);
         }
+        if (robot.failure()) {
+            motion.failure = robot.failure();
+            const Eigen::Index good = motion.failure->time > sample.t ? k + 1 : k;
+            shorten(motion.measured, good);
+            shorten(motion.truth, good);
+            return motion;
+        }
+        held = tau;
+    }
+    return motion;
+}
+
+simulated_motion simulate(const idim_model_interface& model, const Eigen::VectorXd& chi, const control_law& law,
+                          const log& reference, const measurement_noise& noise, int substeps) {
+    simulated_loop_setup setup{model, chi, law, reference};
+    setup.noise = noise;
+    setup.integration.substeps = substeps;
+    simulated_motion motion = simulate(setup);
+    if (motion.failure) {
+        throw data_error(motion.failure->message);
     }
     return motion;
 }

@@ -1,0 +1,317 @@
+#include "robot_motion.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace idim {
+
+namespace {
+
+// A frozen joint is evaluated at least this fast on its side, so that sign() of the model keeps its value while the
+// stages of a step overshoot zero; far below any speed that another term would notice.
+constexpr double slowest = 1e-12;
+
+constexpr const char* indefinite =
+    "simulation at t = {:.4f} s: the inertia matrix is not positive definite at joint {}; the parameters are not "
+    "physical";
+constexpr const char* diverging =
+    "simulation diverges at t = {:.4f} s, joint {}: lower the bandwidth or raise the rate of the control law";
+
+}  // namespace
+
+robot_motion::robot_motion(const idim_model_interface& model, const Eigen::VectorXd& chi,
+                           const integration_options& options, const Eigen::VectorXd& q, const Eigen::VectorXd& qd)
+    : model_(model),
+      chi_(chi),
+      options_(options),
+      n_(model.dof),
+      temperature_(Eigen::VectorXd::Constant(n_, 20.0)),
+      tau_(Eigen::VectorXd::Zero(n_)),
+      speed_(qd),
+      N_(n_),
+      holding_(n_),
+      M_(n_, n_),
+      x_(2 * static_cast<std::size_t>(n_)),
+      side_(static_cast<std::size_t>(n_), side::open),
+      controlled_(boost::numeric::odeint::make_controlled<dopri5>(options.tolerance, options.tolerance)) {
+    std::copy(q.data(), q.data() + n_, x_.begin());
+    std::copy(qd.data(), qd.data() + n_, x_.begin() + n_);
+    for (int j = 0; j < n_; ++j) {
+        const bool frozen = options.friction == friction_handling::located && has_jump(j);
+        jumps_.push_back(frozen);
+        side_[static_cast<std::size_t>(j)] =
+            !frozen ? side::open : (qd[j] < 0.0 ? side::backward : (qd[j] > 0.0 ? side::forward : side::rest));
+    }
+}
+
+/// Torque that joint j has beside its acceleration at the given speed, all others as frozen.
+double robot_motion::bias_of(int joint, double speed, double t) {
+    const double kept = speed_[joint];
+    speed_[joint] = speed;
+    model_.bias(x_.data(), speed_.data(), t, temperature_.data(), chi_.data(), N_.data());
+    speed_[joint] = kept;
+    return N_[joint];
+}
+
+bool robot_motion::has_jump(int joint) {
+    const double low = bias_of(joint, -slowest, 0.0);
+    const double high = bias_of(joint, slowest, 0.0);
+    return std::abs(high - low) > 1e-9 * std::max(1e-3, std::abs(high) + std::abs(low));
+}
+
+void robot_motion::freeze(const double* qd) {
+    for (Eigen::Index j = 0; j < n_; ++j) {
+        const side where = side_[static_cast<std::size_t>(j)];
+        switch (where) {
+            case side::open:
+                speed_[j] = qd[j];
+                break;
+            case side::rest:
+                speed_[j] = 0.0;
+                break;
+            default:
+                speed_[j] = where == side::forward ? std::max(qd[j], slowest) : std::min(qd[j], -slowest);
+        }
+    }
+}
+
+bool robot_motion::any_rest() const {
+    return std::find(side_.begin(), side_.end(), side::rest) != side_.end();
+}
+
+void robot_motion::regularised_bias(const double* q, const double* qd, double t) {
+    const Eigen::Map<const Eigen::VectorXd> real(qd, n_);
+    speed_ = (real.array().abs() < options_.band).select(0.0, real);
+    model_.bias(q, speed_.data(), t, temperature_.data(), chi_.data(), N_.data());
+    const Eigen::VectorXd at_zero = N_;
+    Eigen::VectorXd total = N_;
+    for (Eigen::Index j = 0; j < n_; ++j) {
+        if (std::abs(qd[j]) < options_.band && qd[j] != 0.0) {
+            speed_[j] = std::copysign(options_.band, qd[j]);
+            model_.bias(q, speed_.data(), t, temperature_.data(), chi_.data(), N_.data());
+            speed_[j] = 0.0;
+            total += (N_ - at_zero) * (std::abs(qd[j]) / options_.band);
+        }
+    }
+    N_ = total;
+}
+
+/// M qdd + N = tau + holding, with qdd = 0 where a joint rests and holding = 0 elsewhere. N_ is given.
+void robot_motion::constrained_acceleration(const double* q, double t, double* qdd) {
+    model_.mass_matrix(q, chi_.data(), M_.data());
+    Eigen::MatrixXd free = M_;
+    Eigen::VectorXd force = tau_ - N_;
+    for (Eigen::Index j = 0; j < n_; ++j) {
+        if (side_[static_cast<std::size_t>(j)] == side::rest) {
+            free.row(j).setZero();
+            free.col(j).setZero();
+            free(j, j) = 1.0;
+            force[j] = 0.0;
+        }
+    }
+    Eigen::Map<Eigen::VectorXd> result(qdd, n_);
+    const Eigen::LLT<Eigen::MatrixXd> factors(free);
+    if (factors.info() != Eigen::Success) {
+        const int joint =
+            model_.forward_dynamics(q, speed_.data(), tau_.data(), t, temperature_.data(), chi_.data(), qdd);
+        fail(t, std::max(joint, 1) - 1, indefinite);
+        result.setZero();
+        return;
+    }
+    result = factors.solve(force);
+    holding_ = tau_ - N_ - M_ * result;
+}
+
+void robot_motion::derivative(const state& x, state& dxdt, double t) {
+    const double* const q = x.data();
+    const double* const qd = x.data() + n_;
+    double* const qdd = dxdt.data() + n_;
+    std::copy(qd, qd + n_, dxdt.begin());
+    if (options_.friction == friction_handling::regularised) {
+        regularised_bias(q, qd, t);
+        constrained_acceleration(q, t, qdd);
+        return;
+    }
+    freeze(qd);
+    if (any_rest()) {
+        model_.bias(q, speed_.data(), t, temperature_.data(), chi_.data(), N_.data());
+        constrained_acceleration(q, t, qdd);
+        return;
+    }
+    const int joint = model_.forward_dynamics(q, speed_.data(), tau_.data(), t, temperature_.data(), chi_.data(), qdd);
+    if (joint != 0) {
+        fail(t, joint - 1, indefinite);
+        std::fill(qdd, qdd + n_, 0.0);
+    }
+}
+
+/// Lets go the resting joint whose friction is exceeded most; false where all hold.
+bool robot_motion::release_one(double t) {
+    state rate(x_.size());
+    derivative(x_, rate, t);
+    const Eigen::VectorXd holding = holding_;
+    double worst = 0.0;
+    int released = -1;
+    side direction = side::rest;
+    for (int j = 0; j < n_; ++j) {
+        if (side_[static_cast<std::size_t>(j)] != side::rest) {
+            continue;
+        }
+        const double middle = bias_of(j, 0.0, t);
+        const double above = holding[j] - (bias_of(j, slowest, t) - middle);
+        const double below = (bias_of(j, -slowest, t) - middle) - holding[j];
+        const double excess = std::max(above, below);
+        if (excess > worst) {
+            worst = excess;
+            released = j;
+            direction = above > below ? side::forward : side::backward;
+        }
+    }
+    if (released >= 0) {
+        side_[static_cast<std::size_t>(released)] = direction;
+    }
+    return released >= 0;
+}
+
+/// Decides which of the resting joints friction can hold.
+void robot_motion::settle(double t) {
+    while (!failure_ && any_rest() && release_one(t)) {
+    }
+}
+
+void robot_motion::plain_step(state& x, double t, double h) {
+    const auto system = [this](const state& at, state& rate, double time) { derivative(at, rate, time); };
+    if (options_.method == integrator::rk4) {
+        rk4_.do_step(system, x, t, h);
+    } else {
+        dopri5_.reset();
+        dopri5_.do_step(system, x, t, h);
+    }
+}
+
+/// One step of at most h; returns its length, and leaves in h what the next may have.
+double robot_motion::step(double t, double& h) {
+    if (options_.method == integrator::rk4) {
+        plain_step(x_, t, h);
+        return h;
+    }
+    const double shortest = 1e-6 * h;  // across a jump no step is short enough for the tolerance
+    const auto system = [this](const state& at, state& rate, double time) { derivative(at, rate, time); };
+    double reached = t;
+    while (controlled_.try_step(system, x_, reached, h) == boost::numeric::odeint::fail) {
+        if (h < shortest) {
+            plain_step(x_, t, h);
+            controlled_.reset();
+            return h;
+        }
+    }
+    return reached - t;
+}
+
+double robot_motion::lowest_advance(const state& x, const std::vector<int>& joints) const {
+    double lowest = INFINITY;
+    for (const int j : joints) {
+        const auto at = static_cast<std::size_t>(j);
+        lowest = std::min(lowest, static_cast<double>(side_[at]) * x[static_cast<std::size_t>(n_) + at]);
+    }
+    return lowest;
+}
+
+/// Shortens the step from before_ to x_ to the first change of a frozen sign; returns the length that is left.
+double robot_motion::locate(double t, double h) {
+    std::vector<int> crossing;
+    for (int j = 0; j < n_; ++j) {
+        const auto at = static_cast<std::size_t>(j);
+        const bool moves = side_[at] == side::forward || side_[at] == side::backward;
+        if (moves && static_cast<double>(side_[at]) * x_[static_cast<std::size_t>(n_) + at] < 0.0) {
+            crossing.push_back(j);
+        }
+    }
+    if (crossing.empty()) {
+        return h;
+    }
+    // Regula falsi, Illinois variant (Dowell and Jarratt 1971): `high` stays beyond the change.
+    double low = 0.0, high = h;
+    double f_low = std::max(lowest_advance(before_, crossing), 0.0), f_high = lowest_advance(x_, crossing);
+    int kept = 0;
+    constexpr int most = 60;
+    for (int i = 0; i < most && high - low > 1e-10 * h && f_high < -slowest; ++i) {
+        const double middle = low + (high - low) * f_low / (f_low - f_high);
+        trial_ = before_;
+        plain_step(trial_, t, middle);
+        const double f = lowest_advance(trial_, crossing);
+        if (f >= 0.0) {
+            f_high *= kept == 1 ? 0.5 : 1.0;
+            low = middle;
+            f_low = f;
+            kept = 1;
+        } else {
+            f_low *= kept == -1 ? 0.5 : 1.0;
+            high = middle;
+            f_high = f;
+            x_ = trial_;
+            kept = -1;
+        }
+    }
+    for (const int j : crossing) {
+        const auto at = static_cast<std::size_t>(j);
+        double& speed = x_[static_cast<std::size_t>(n_) + at];
+        if (static_cast<double>(side_[at]) * speed <= 0.0) {
+            speed = 0.0;
+            const double jump = bias_of(j, slowest, t) - bias_of(j, -slowest, t);
+            // Friction that drives (estimates on their way may have it) holds nothing: the joint passes.
+            side_[at] = jump > 0.0 ? side::rest : (side_[at] == side::forward ? side::backward : side::forward);
+        }
+    }
+    controlled_.reset();
+    return high;
+}
+
+void robot_motion::fail(double t, int joint, const char* format) {
+    if (!failure_) {
+        failure_ = {t, joint, fmt::format(fmt::runtime(format), t, model_.joint_names[joint])};
+    }
+}
+
+void robot_motion::check(double t) {
+    constexpr double fastest = 1e4;  // rad/s or m/s: no robot moves like that
+    for (int j = 0; j < n_; ++j) {
+        if (!(std::abs(x_[static_cast<std::size_t>(n_ + j)]) < fastest)) {
+            fail(t, j, diverging);
+        }
+    }
+}
+
+Eigen::VectorXd robot_motion::acceleration(double t, const Eigen::VectorXd& tau) {
+    tau_ = tau;
+    settle(t);
+    state rate(x_.size());
+    derivative(x_, rate, t);
+    return Eigen::Map<const Eigen::VectorXd>(rate.data() + n_, n_);
+}
+
+void robot_motion::advance(double t, double period, const Eigen::VectorXd& tau) {
+    tau_ = tau;
+    settle(t);
+    controlled_.reset();
+    constexpr double longest = 1e-3;  // s
+    const double steps = options_.substeps > 0 ? options_.substeps : std::ceil(period / longest - 1e-9);
+    const double end = t + period;
+    const double rounding = 1e-9 * period;
+    double next = options_.method == integrator::rk4 ? period / steps : period;
+    while (end - t > rounding && !failure_) {
+        double h = std::min(options_.method == integrator::rk4 ? period / steps : next, end - t);
+        before_ = x_;
+        const double taken = step(t, h);
+        next = h;
+        t += options_.friction == friction_handling::located ? locate(t, taken) : taken;
+        check(t);
+        settle(t);
+    }
+}
+
+}  // namespace idim

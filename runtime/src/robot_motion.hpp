@@ -1,0 +1,66 @@
+#pragma once
+
+#include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/generation/generation_runge_kutta_dopri5.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
+#include <vector>
+
+#include "idim/simulation.hpp"
+
+namespace idim {
+
+/// Position and velocity of a robot under torques that are held (integration_options).
+class robot_motion {
+  public:
+    robot_motion(const idim_model_interface& model, const Eigen::VectorXd& chi, const integration_options& options,
+                 const Eigen::VectorXd& q, const Eigen::VectorXd& qd);
+
+    Eigen::Map<const Eigen::VectorXd> q() const { return {x_.data(), n_}; }
+    Eigen::Map<const Eigen::VectorXd> qd() const { return {x_.data() + n_, n_}; }
+    /// [n] under tau, with the joints that rest settled for it.
+    Eigen::VectorXd acceleration(double t, const Eigen::VectorXd& tau);
+    /// Moves on by `period` under tau; stops where a failure happens.
+    void advance(double t, double period, const Eigen::VectorXd& tau);
+
+    const std::optional<simulation_failure>& failure() const { return failure_; }
+
+  private:
+    using state = std::vector<double>;  // q, then qd
+    using dopri5 = boost::numeric::odeint::runge_kutta_dopri5<state>;
+
+    /// Side of its friction jump that a joint is on; `open` where nothing is frozen.
+    enum class side : signed char { backward = -1, rest = 0, forward = 1, open = 2 };
+
+    void derivative(const state& x, state& dxdt, double t);
+    void constrained_acceleration(const double* q, double t, double* qdd);
+    void regularised_bias(const double* q, const double* qd, double t);
+    void freeze(const double* qd);
+    double bias_of(int joint, double speed, double t);
+    bool has_jump(int joint);
+    void settle(double t);
+    bool release_one(double t);
+    bool any_rest() const;
+    double step(double t, double& h);
+    void plain_step(state& x, double t, double h);
+    double lowest_advance(const state& x, const std::vector<int>& joints) const;
+    double locate(double t, double h);
+    void check(double t);
+    void fail(double t, int joint, const char* format);
+
+    const idim_model_interface& model_;
+    const Eigen::VectorXd& chi_;
+    integration_options options_;
+    Eigen::Index n_;
+    Eigen::VectorXd temperature_, tau_, speed_, N_, holding_;
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> M_;
+    state x_, before_, trial_;
+    std::vector<side> side_;
+    std::vector<bool> jumps_;
+    boost::numeric::odeint::runge_kutta4<state> rk4_;
+    dopri5 dopri5_;
+    boost::numeric::odeint::controlled_runge_kutta<dopri5> controlled_;
+    std::optional<simulation_failure> failure_;
+};
+
+}  // namespace idim
