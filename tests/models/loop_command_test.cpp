@@ -8,6 +8,7 @@
 #include "oracles/scara_loop.hpp"
 #include "support/command.hpp"
 #include "support/robot_files.hpp"
+#include "support/shared_data.hpp"
 
 namespace idim::test {
 
@@ -88,6 +89,24 @@ TEST_F(LoopCommand, SaysWhatItAssumesOfAnUnknownControlLaw) {
     EXPECT_NE(assumption.find("the control law is unknown"), std::string::npos) << assumption;
     EXPECT_NE(assumption.find("5 Hz"), std::string::npos) << assumption;
     EXPECT_NEAR(result["parameters"][0]["value"].get<double>(), 3.44, 0.05);
+}
+
+TEST_F(LoopCommand, SimulatesTheDeclaredLawOfTheMeasuredAxis) {
+    const auto file = test_support::shared_data("emps/ident.csv.gz");
+    if (!file) {
+        GTEST_SKIP() << "emps/ident.csv.gz is not here";
+    }
+    const std::string start = folder_->write("start.yaml", "{M1: 60, Fv1: 0.01, Fc1: 0.01, off1: 0}");
+    const std::vector<double> published = {95.12, 203.24, 20.42, -3.170};
+    for (const std::string& from : {std::string("ls"), start}) {
+        const json result = result_of({"identify", robot_file("emps"), file->string(), "--method", "iv", "--start",
+                                       from, "--cutoff", "100", "--decimation", "10"});
+        EXPECT_TRUE(result["loop"]["assumption"].is_null());
+        EXPECT_LE(result["iterations"].size() - 1, 3U);
+        for (std::size_t k = 0; k < 4; ++k) {
+            EXPECT_NEAR(result["parameters"][k]["value"].get<double>(), published[k], 0.002 * std::abs(published[k]));
+        }
+    }
 }
 
 TEST_F(LoopCommand, RefusesAThirdOfTheBandwidthWithExitThree) {
