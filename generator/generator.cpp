@@ -48,9 +48,11 @@ base_report report(const robot_model& model) {
     return result;
 }
 
-/// Of what the model depends on: the description as read (comments and layout left out), its effects and the version.
-std::string hash_inputs(const robot_model& model) {
+/// Of what the model depends on: the description as read (comments and layout left out), its effects, whether it has
+/// derivatives, and the version.
+std::string hash_inputs(const robot_model& model, const generation_options& options) {
     std::string text = std::string("idim ") + version() + "\n" + to_string(model.description);
+    text += options.derivatives ? "derivatives\n" : "";
     for (const effect_description& effect : model.effects) {
         text += fmt::format("effect {} {} {} {}\n", effect.name, static_cast<int>(effect.scope), effect.acts_on_both,
                             effect.torque.text);
@@ -94,10 +96,10 @@ generated_model generate(const std::string& robot_file, const std::string& templ
     result.robot = model.description.name;
     result.target = options.target;
     result.base = report(model);
-    result.input_hash = hash_inputs(model);
+    result.input_hash = hash_inputs(model, options);
     model_operations counts;
     const template_context context =
-        build_context(model, {version(), result.input_hash}, languages_of(options.target), counts);
+        build_context(model, {version(), result.input_hash}, options.derivatives, languages_of(options.target), counts);
     result.joints = context.joints;
     result.operations = table(counts);
     result.files = render(context, templates + "/" + options.target);

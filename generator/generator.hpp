@@ -34,6 +34,7 @@ struct operation_table {
 /// What to write of a robot.
 struct generation_options {
     std::string target = "cpp";  ///< one of target_names()
+    bool derivatives = false;    ///< of the inverse dynamics by q and qd, as one more function
 };
 
 /// A model of one robot, in memory.

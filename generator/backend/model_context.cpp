@@ -10,6 +10,7 @@
 
 #include "backend/function_spelling.hpp"
 #include "dynamics/dynamic_models.hpp"
+#include "graph/derivatives.hpp"
 
 namespace idim::generator {
 
@@ -72,6 +73,8 @@ std::map<std::string, function_argument> all_arguments(int n, int b, int s) {
     add("N", n, fmt::format("[{}] joint torques or forces [N*m or N]", n));
     add("G", n, fmt::format("[{}] joint torques or forces [N*m or N]", n));
     add("D", n, fmt::format("[{}] pivots, all positive if and only if M is positive definite", n));
+    add("dtau_dq", n * n, fmt::format("[{} x {}] row-major, row = torque, column = position", n, n));
+    add("dtau_dqd", n * n, fmt::format("[{} x {}] row-major, row = torque, column = velocity", n, n));
     add("standard", s, "[standard_parameters] standard parameters, in the order of standard_parameter_names");
     return result;
 }
@@ -101,6 +104,22 @@ std::vector<function_argument> arguments(const function_plan& plan, const robot_
 model_function derive(const function_plan& plan, const robot_model& model) {
     return {plan.name, plan.summary, arguments(plan, model),
             build_graph(plan.build(model.tree, model.parameters, model.base.selection()), constants_as::values)};
+}
+
+/// How the torque changes with position and velocity. By accelerations and parameters it is linear: M and W.
+model_function derive_derivatives(const robot_model& model) {
+    const function_plan plan{
+        "inverse_dynamics_derivatives",
+        "Derivatives of inverse_dynamics by q and qd, of sign(x) zero; by qdd they are mass_matrix, by "
+        "chi regressor.",
+        {"q", "qd", "qdd", "t", "temp", "chi"},
+        {"dtau_dq", "dtau_dqd"},
+        inverse_dynamics_model};
+    model_function torque = derive(plan, model);
+    const int n = model.tree.dof();
+    torque.graph =
+        differentiate(torque.graph, {{"dtau_dq", symbol_role::position, n}, {"dtau_dqd", symbol_role::velocity, n}});
+    return torque;
 }
 
 /// chi = standard parameters regrouped: what a-priori values of links become.
@@ -189,8 +208,8 @@ std::vector<std::pair<std::string, double>> named_constants(const robot_model& m
     return result;
 }
 
-template_context build_context(const robot_model& model, const file_origin& origin, const languages& spellings,
-                               model_operations& operations) {
+template_context build_context(const robot_model& model, const file_origin& origin, bool derivatives,
+                               const languages& spellings, model_operations& operations) {
     template_context context;
     context.robot = model.description.name;
     context.version = origin.version;
@@ -212,6 +231,9 @@ template_context build_context(const robot_model& model, const file_origin& orig
         functions.push_back(derive(plan, model));
     }
     functions.push_back(derive_regrouping(model));
+    if (derivatives) {
+        functions.push_back(derive_derivatives(model));
+    }
     spelled_models spelled = spell(functions, names_of(context), spellings);
     context.functions = std::move(spelled.functions);
     context.sines = spelled.sines;

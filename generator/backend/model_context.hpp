@@ -32,9 +32,10 @@ struct file_origin {
     std::string version, input_hash;
 };
 
-/// Derives all models of a robot and spells them for the templates. `operations` receives the counts.
-template_context build_context(const robot_model& model, const file_origin& origin, const languages& spellings,
-                               model_operations& operations);
+/// Derives all models of a robot, with `derivatives` also those of its inverse dynamics, and spells them for the
+/// templates. `operations` receives the counts.
+template_context build_context(const robot_model& model, const file_origin& origin, bool derivatives,
+                               const languages& spellings, model_operations& operations);
 
 /// Counts for the same robot without its effects.
 model_operations count_rigid(const robot_model& model);

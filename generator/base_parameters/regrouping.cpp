@@ -107,8 +107,9 @@ regrouping::regrouping(const standard_regressor& W, const kinematic_tree& tree, 
       tree_(tree),
       parameters_(parameters),
       evaluator_(W.graph, [](const rational& value) { return to_field(value); }),
-      // Rows for the largest rank there can be, and some to spare: rows of outer joints see few columns.
-      points_(static_cast<int>(W.columns / W.dof) + 3),
+      // Rows for the largest rank there can be, and some to spare: rows of outer joints see few columns. Never so few
+      // that a joint is likely to turn the same way at all of them, where Coulomb friction looks like an offset.
+      points_(std::max(static_cast<int>(W.columns / W.dof) + 3, 16)),
       own_constants_(constant_values(tree)),
       is_kept_(W.columns, false) {
     const std::vector<prime_field> constants = to_field(own_constants_);

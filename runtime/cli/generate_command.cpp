@@ -103,6 +103,8 @@ void add_generate_command(CLI::App& app, action& chosen) {
     command->add_option("--target", options->wanted.target, "language of the code")
         ->check(CLI::IsMember(generator::target_names()))
         ->capture_default_str();
+    command->add_flag("--derivatives", options->wanted.derivatives,
+                      "also derivatives of the inverse dynamics by positions and velocities");
     command->add_flag("--check", options->check,
                       "write nothing; exit 1 and a diff where the folder is not what would be written");
     add_json_option(*command, options->json_file);
