@@ -48,15 +48,6 @@ json essential_json(const identification& found) {
             {"residual", to_json(found.essential.residual, found.robot)}};
 }
 
-identification with_essential(const loaded_robot& robot, const filter_choice& filter, observation rows,
-                              estimate result) {
-    essential_parameters essential;
-    if (result.chi.size() > 0) {
-        essential = find_essential(rows, result);
-    }
-    return {robot, filter, std::move(rows), std::move(result), std::move(essential)};
-}
-
 json names_json(const identification& found, const std::vector<int>& columns) {
     json names = json::array();
     for (const int k : columns) {
@@ -71,20 +62,18 @@ double relative_percent(double std, double value) {
     return 100.0 * std / std::abs(value);
 }
 
-identification identify(const loaded_robot& robot, const filter_choice& filter, const std::vector<idim::log>& logs,
-                        least_squares_method method) {
-    std::vector<filtered_samples> samples;
-    for (const idim::log& log : logs) {
-        samples.push_back(filter_log(log, filter));
+identification identify(const loaded_robot& robot, const filter_choice& filter,
+                        const std::vector<filtered_samples>& logs, least_squares_method method) {
+    fitted_rows fit = fit_rows(robot.model(), logs, filter, method);
+    essential_parameters essential;
+    if (fit.result.chi.size() > 0) {
+        essential = find_essential(fit.rows, fit.result);
     }
-    fitted_rows fit = fit_rows(robot.model(), samples, filter, method);
-    return with_essential(robot, filter, std::move(fit.rows), std::move(fit.result));
+    return {robot, filter, std::move(fit.rows), std::move(fit.result), std::move(essential)};
 }
 
-identification identify(const loaded_robot& robot, const filter_choice& filter, observation rows,
-                        least_squares_method method) {
-    estimate result = least_squares(rows, method);
-    return with_essential(robot, filter, std::move(rows), std::move(result));
+bool has_essential(const identification& found) {
+    return !found.essential.kept.empty() || !found.essential.dropped.empty();
 }
 
 json to_json(const identification& found, const std::string& method) {
@@ -112,7 +101,7 @@ json to_json(const identification& found, const std::string& method) {
             {"correlation_length", found.result.correlation_length},
             {"not_excited", names_json(found, found.result.not_excited)},
             {"parameters", parameters_json(found)},
-            {"essential", found.result.chi.size() > 0 ? essential_json(found) : json(nullptr)},
+            {"essential", has_essential(found) ? essential_json(found) : json(nullptr)},
             {"residual", found.result.chi.size() > 0 ? to_json(found.result.residual, found.robot) : json(nullptr)}};
 }
 

@@ -13,13 +13,13 @@ struct identification {
     essential_parameters essential;
 };
 
-/// Least squares of the rows, essential parameters included where there is a result.
-identification identify(const loaded_robot& robot, const filter_choice& filter, observation rows,
-                        least_squares_method method);
+/// Least squares of filtered logs, essential parameters included where there is a result. Rows that depend on the
+/// estimate are repeated with it (fit_rows).
+identification identify(const loaded_robot& robot, const filter_choice& filter,
+                        const std::vector<filtered_samples>& logs, least_squares_method method);
 
-/// The same of logs, whose rows are repeated with the estimate where they depend on it (fit_rows).
-identification identify(const loaded_robot& robot, const filter_choice& filter, const std::vector<idim::log>& logs,
-                        least_squares_method method);
+/// Whether essential parameters were looked for: only least squares does.
+bool has_essential(const identification& found);
 
 /// JSON of `identify` (FORMATS.md).
 json to_json(const identification& found, const std::string& method);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "identification.hpp"
 #include "identified_parameters.hpp"
 #include "idim/estimate.hpp"
 #include "idim/input_error.hpp"
@@ -23,90 +24,6 @@ struct identify_options {
     std::string json_file;
 };
 
-/// What the command knows at the end.
-struct identification {
-    loaded_robot robot;
-    filter_choice filter;
-    observation rows;
-    method_result by;
-    estimate result;
-    essential_parameters essential;
-};
-
-double relative_percent(double std, double value) {
-    return 100.0 * std / std::abs(value);
-}
-
-json parameters_json(const identification& found) {
-    json list = json::array();
-    const Eigen::VectorXd std = found.result.deviations();
-    for (Eigen::Index k = 0; k < found.result.chi.size(); ++k) {
-        const auto& parameter = parameter_of(found.robot, found.rows, k);
-        list.push_back({{"name", parameter.name},
-                        {"value", found.result.chi[k]},
-                        {"std", std[k]},
-                        {"relative_std_percent", finite(relative_percent(std[k], found.result.chi[k]))},
-                        {"unit", parameter.unit},
-                        {"regroups", parameter.regroups}});
-        if (const int log = column_of(found.rows, static_cast<int>(k)).log; log >= 0) {
-            list.back()["log"] = found.rows.blocks[static_cast<std::size_t>(log)].file;
-        }
-    }
-    return list;
-}
-
-json essential_json(const identification& found) {
-    json kept = json::array();
-    for (const int k : found.essential.kept) {
-        kept.push_back({{"name", name_of(found.robot, found.rows, k)},
-                        {"value", found.essential.chi[k]},
-                        {"std", found.essential.std[k]}});
-    }
-    return {{"parameters", kept},
-            {"f_statistic", finite(found.essential.f_statistic)},
-            {"p_value", finite(found.essential.p_value)},
-            {"residual", to_json(found.essential.residual, found.robot)}};
-}
-
-json names_json(const identification& found, const std::vector<int>& columns) {
-    json names = json::array();
-    for (const int k : columns) {
-        names.push_back(name_of(found.robot, found.rows, k));
-    }
-    return names;
-}
-
-json identification_json(const identification& found) {
-    json rates = json::array();
-    json files = json::array();
-    for (const observation_block& block : found.rows.blocks) {
-        rates.push_back(block.rate);
-        files.push_back(block.file);
-    }
-    const double full_rate = found.rows.blocks.front().rate * found.filter.decimation;
-    return {{"robot", found.robot.generated.robot},
-            {"input_hash", found.robot.generated.input_hash},
-            {"method", found.by.method},
-            {"converged", found.result.converged},
-            {"message", found.result.message},
-            {"logs", files},
-            {"filter", to_json(found.filter)},
-            {"band", found.filter.band(full_rate)},
-            {"row_rates", rates},
-            {"iterations", iterations_json(found.result, found.robot)},
-            {"loop", loop_json(found.by)},
-            {"tests", tests_json(found.by, found.robot)},
-            {"samples", found.result.samples},
-            {"rank", found.result.rank},
-            {"condition_number", finite(found.result.condition_number)},
-            {"scaled_condition_number", finite(found.result.scaled_condition_number)},
-            {"correlation_length", found.result.correlation_length},
-            {"not_excited", names_json(found, found.result.not_excited)},
-            {"parameters", parameters_json(found)},
-            {"essential", found.essential.kept.empty() ? json(nullptr) : essential_json(found)},
-            {"residual", found.result.chi.size() > 0 ? to_json(found.result.residual, found.robot) : json(nullptr)}};
-}
-
 void print_parameters(const identification& found) {
     const Eigen::VectorXd std = found.result.deviations();
     fmt::print("  {:<10} {:>13} {:>11} {:>8}  {}\n", "parameter", "value", "std", "%", "unit");
@@ -127,18 +44,18 @@ void print_essential(const identification& found) {
                dropped.empty() ? "none" : fmt::format("{}", fmt::join(dropped, " ")));
 }
 
-void print_identification(const identification& found) {
+void print_identification(const identification& found, const method_result& by) {
     const estimate& result = found.result;
     fmt::print("{}: {}, {} rows, condition number {:.3g} ({:.3g} with columns scaled)\n", found.robot.generated.robot,
-               found.by.method, result.samples, result.condition_number, result.scaled_condition_number);
+               by.method, result.samples, result.condition_number, result.scaled_condition_number);
     fmt::print("  {}\n", found.filter.reason);
-    print_iterations(found.by, found.robot);
+    print_iterations(by, found.robot);
     print_parameters(found);
     print(result.residual, found.robot);
     fmt::print("  residual correlated over {:.1f} rows (by joint); the deviations account for it\n",
                fmt::join(result.correlation_length, " "));
-    print_tests(found.by, found.robot);
-    if (!found.essential.kept.empty()) {
+    print_tests(by, found.robot);
+    if (has_essential(found)) {
         print_essential(found);
     }
 }
@@ -198,7 +115,7 @@ int compare(const identify_options& options, const loaded_robot& robot, const fi
 }
 
 int run(const identify_options& options) {
-    loaded_robot robot = load_robot(options.robot);
+    const loaded_robot robot = load_robot(options.robot);
     const Eigen::VectorXd truth = options.truth.empty() ? Eigen::VectorXd() : read_parameters(options.truth, robot).chi;
     const std::vector<idim::log> logs = read_logs(robot, options.logs);
     const std::vector<std::string> at_rest = joints_at_rest(robot, logs);
@@ -211,25 +128,27 @@ int run(const identify_options& options) {
         return compare(options, robot, filter, runner);
     }
     observation rows = simulates(options.method) ? runner.steady_rows() : runner.all_rows();
-    method_result by = runner.run(options.method, rows);
-    estimate result = by.fit;
+    const method_result by = runner.run(options.method, rows);
     essential_parameters essential;
     // The F test behind it supposes least squares on these rows.
-    if (result.chi.size() > 0 && !simulates(options.method)) {
-        essential = find_essential(rows, result);
+    if (by.fit.chi.size() > 0 && !simulates(options.method)) {
+        essential = find_essential(rows, by.fit);
     }
-    const identification found{std::move(robot),    filter, std::move(rows), std::move(by), std::move(result),
-                               std::move(essential)};
-    write_json(options.json_file, identification_json(found));
+    const identification found{robot, filter, std::move(rows), by.fit, std::move(essential)};
+    json content = to_json(found, options.method);
+    content["iterations"] = iterations_json(by.fit, robot);
+    content["loop"] = loop_json(by);
+    content["tests"] = tests_json(by, robot);
+    write_json(options.json_file, content);
     if (found.result.chi.size() == 0) {
         if (prints_text(options.json_file)) {
-            print_iterations(found.by, found.robot);
+            print_iterations(by, robot);
         }
         const bool unexcited = !found.result.not_excited.empty() && found.result.iterations.empty();
         throw data_error(unexcited ? explain(found, at_rest) : found.result.message);
     }
     if (prints_text(options.json_file)) {
-        print_identification(found);
+        print_identification(found, by);
         if (truth.size() > 0) {
             print_truth(found, truth);
         }

@@ -6,6 +6,7 @@
 
 #include "emit/model_folder.hpp"
 #include "idim/input_error.hpp"
+#include "idim/log_parameters.hpp"
 #include "idim/unified_diff.hpp"
 #include "refine_report.hpp"
 #include "refined_description.hpp"
@@ -35,14 +36,21 @@ struct identified_robot {
     trace_errors errors;
 };
 
+/// Errors of base parameters on logs they were not fitted to; what is each log's own is fitted there.
+error_summary errors_on(const traced_robot& traced, const std::vector<filtered_samples>& logs,
+                        const Eigen::VectorXd& chi) {
+    const idim_model_interface& model = traced.robot.model();
+    const Eigen::VectorXd base = chi.head(model.n_base);
+    const observation rows = with_log_columns(model, observe(model, logs, traced.filter, base));
+    return errors(rows, with_log_parameters(model, rows, base));
+}
+
 identified_robot identify_traced(const traced_robot& traced, const std::string& method) {
-    identification found =
-        identify(traced.robot, traced.filter, rows_of(traced.robot, traced.fitted, traced.filter), method_of(method));
+    identification found = identify(traced.robot, traced.filter, traced.fitted, method_of(method));
     if (found.result.chi.size() == 0) {
         throw data_error(found.result.message);
     }
-    trace_errors all{found.result.residual,
-                     errors(rows_of(traced.robot, traced.held_back, traced.filter), found.result.chi)};
+    trace_errors all{found.result.residual, errors_on(traced, traced.held_back, found.result.chi)};
     return {std::move(found), std::move(all)};
 }
 

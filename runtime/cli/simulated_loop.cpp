@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include "description/robot_description.hpp"
 #include "idim/control_law.hpp"
 #include "idim/input_error.hpp"
+#include "idim/law_declaration.hpp"
+#include "idim/pd_cascade.hpp"
 #include "idim/simulation.hpp"
 #include "idim/zero_phase_filter.hpp"
 
@@ -16,17 +19,13 @@ namespace idim::cli {
 
 namespace {
 
-constexpr int substeps = 4;  // of the sampling period: the instruments change by less than 1e-5 with more
-
 /// A cascade PD by its natural frequency and damping, the gains for any inertia [IV 44-46].
 struct cascade {
     double rate = 0.0;
-    Eigen::VectorXd natural_frequency, damping, drive_gain, saturation;
+    Eigen::VectorXd natural_frequency, damping, drive_gain;
 
     pd_cascade law(const Eigen::VectorXd& inertia) const {
-        pd_cascade tuned = tune_pd_cascade(rate, natural_frequency, damping, inertia, drive_gain);
-        tuned.saturation = saturation;
-        return tuned;
+        return tune_pd_cascade(rate, natural_frequency, damping, inertia, drive_gain);
     }
 };
 
@@ -69,10 +68,14 @@ Eigen::MatrixXd values_at(const Eigen::VectorXd& from, const Eigen::MatrixXd& va
     return result;
 }
 
-idim::log follow(const idim_model_interface& model, const Eigen::VectorXd& chi, const pd_cascade& law,
+idim::log follow(const idim_model_interface& model, const Eigen::VectorXd& chi, const control_law& law,
                  const idim::log& reference) {
-    const Eigen::VectorXd quiet = Eigen::VectorXd::Zero(model.dof);
-    const simulated_motion simulated = simulate(model, chi, law, reference, {quiet, quiet, 1}, substeps);
+    simulated_loop_setup setup{model, chi, law, reference};
+    setup.start_velocity = reference_velocity(reference, 1.0 / law.rate);
+    const simulated_motion simulated = simulate(setup);
+    if (simulated.failure) {
+        throw data_error(simulated.failure->message);
+    }
     idim::log motion;
     motion.t = reference.t;
     motion.q = positions_at(simulated.truth, reference.t);
@@ -112,37 +115,54 @@ simulated_loops loops_of(const idim_model_interface& model, const cascade& loop,
     return loops;
 }
 
-/// Natural frequency and damping of the declared law; from its gains with the inertia of `a_priori` [IV 43].
-cascade declared_cascade(const generator::control_description& control, const idim_model_interface& model,
-                         const Eigen::VectorXd& a_priori) {
-    const auto values = [&](const std::string& name) -> Eigen::VectorXd {
-        const auto found = control.values.find(name);
-        if (found == control.values.end()) {
-            throw input_error(control.where, "expected " + name + ", or wn and zeta, one number per joint");
+/// wn of a declared law: as it is given, or from gains kp and kv with the inertia J [IV 43]; else a tenth of the
+/// rate's.
+Eigen::VectorXd natural_frequency_of(const law_declaration& declared, const Eigen::VectorXd& drive_gain,
+                                     const Eigen::VectorXd& inertia) {
+    const auto given = [&](const std::string& name) -> Eigen::VectorXd {
+        const auto found = declared.values.find(name);
+        if (found == declared.values.end()) {
+            return {};
         }
-        const std::vector<double>& given = found->second;
-        if (given.size() != 1 && given.size() != static_cast<std::size_t>(model.dof)) {
-            throw input_error(control.where,
-                              fmt::format("{}: {} values given, expected 1 or {}", name, given.size(), model.dof));
-        }
-        return given.size() == 1 ? Eigen::VectorXd::Constant(model.dof, given.front())
-                                 : Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(given.data(), model.dof));
+        const std::vector<double>& values = found->second;
+        return values.size() == 1 ? Eigen::VectorXd::Constant(inertia.size(), values.front())
+                                  : Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(values.data(), inertia.size()));
     };
-    cascade loop{control.rate, {}, {}, drive_gains(model), {}};
-    if (control.values.count("wn") != 0) {
-        loop.natural_frequency = values("wn");
-        loop.damping = values("zeta");
-    } else {
-        const Eigen::VectorXd inertia = largest_inertia(model, a_priori);
-        const Eigen::ArrayXd kv = values("kv").cwiseProduct(loop.drive_gain);
-        const Eigen::ArrayXd kp = values("kp");
-        loop.natural_frequency = (kp * kv / inertia.array()).sqrt();
-        loop.damping = 0.5 * (kv / (kp * inertia.array())).sqrt();
+    if (const Eigen::VectorXd wn = given("wn"); wn.size() > 0) {
+        return wn;
     }
-    if (control.values.count("saturation") != 0) {
-        loop.saturation = values("saturation");
+    const Eigen::VectorXd kp = given("kp");
+    const Eigen::VectorXd kv = given("kv");
+    if (kp.size() > 0 && kv.size() > 0) {
+        return (kp.array() * kv.array() * drive_gain.array() / inertia.array()).sqrt();
     }
-    return loop;
+    // Position control alone: its bandwidth is kp.
+    return kp.size() > 0 ? kp : Eigen::VectorXd::Constant(inertia.size(), 0.1 * declared.rate);
+}
+
+/// The declared law, wn multiplied by `scale`, simulated along the recorded references.
+simulated_loops declared_loops(const idim_model_interface& model, law_declaration declared, double scale,
+                               const Eigen::VectorXd& a_priori) {
+    for (double& wn : declared.values["wn"]) {
+        wn *= scale;
+    }
+    if (declared.values["wn"].empty()) {
+        declared.values.erase("wn");
+    }
+    const std::shared_ptr<const control_law> own = make_control_law(declared, model, a_priori);
+    const Eigen::VectorXd wn = natural_frequency_of(declared, own->drive_gain, largest_inertia(model, a_priori));
+    simulated_loops loops;
+    loops.rescaled = {[&model, own](const Eigen::VectorXd& chi, const idim::log& recorded) {
+                          const std::unique_ptr<control_law> law = own->clone();
+                          law->tune(largest_inertia(model, chi));
+                          return follow(model, chi, *law, recorded);
+                      },
+                      wn, ""};
+    loops.fixed = {[&model, own](const Eigen::VectorXd& chi, const idim::log& recorded) {
+                       return follow(model, chi, *own, recorded);
+                   },
+                   wn, ""};
+    return loops;
 }
 
 simulated_loops tracking_loops(const idim_model_interface& model, const std::vector<idim::log>& logs,
@@ -151,7 +171,7 @@ simulated_loops tracking_loops(const idim_model_interface& model, const std::vec
     const double rate = static_cast<double>(logs.front().samples() - 1) / logs.front().duration();
     const double bandwidth = request.bandwidth.value_or(std::min(filter.band(rate), 0.05 * rate));
     const auto each = [&](double value) { return Eigen::VectorXd::Constant(model.dof, value); };
-    const cascade loop{rate, each(2.0 * std::numbers::pi * bandwidth), each(1.0), drive_gains(model), {}};
+    const cascade loop{rate, each(2.0 * std::numbers::pi * bandwidth), each(1.0), drive_gains(model)};
     const reference_maker reference = [filter, loop](const idim::log& recorded) {
         idim::log tracked;
         tracked.t = recorded.t;
@@ -186,18 +206,18 @@ simulated_loops simulated_loops_of(const loaded_robot& robot, const std::string&
     const idim_model_interface& model = robot.model();
     const auto description = generator::read_robot(robot_file);
     const auto without = std::find_if(logs.begin(), logs.end(), [](const idim::log& l) { return l.qr.size() == 0; });
-    const bool known = description.control && description.control->law == "pd_cascade";
-    if (request.track || !known || without != logs.end()) {
+    if (request.track || !description.control || without != logs.end()) {
         const std::string why = request.track          ? "declared control law left aside"
                                 : !description.control ? "the control law is unknown"
-                                : !known ? fmt::format("a control law {} cannot be simulated", description.control->law)
-                                         : fmt::format("{} has no reference qr1..", without->file);
+                                                       : fmt::format("{} has no reference qr1..", without->file);
         return tracking_loops(model, logs, filter, request, a_priori, why);
     }
-    cascade loop = declared_cascade(*description.control, model, a_priori);
-    loop.natural_frequency *= request.bandwidth_scale;
-    return loops_of(
-        model, loop, a_priori, [](const idim::log& recorded) { return recorded; }, "");
+    const generator::control_description& control = *description.control;
+    if (request.bandwidth_scale != 1.0 && control.values.count("wn") == 0) {
+        throw input_error({"", 0, "--bandwidth-scale"}, "needs a control law that declares wn");
+    }
+    return declared_loops(model, {control.law, control.rate, control.delay, control.values, control.where},
+                          request.bandwidth_scale, a_priori);
 }
 
 }  // namespace idim::cli

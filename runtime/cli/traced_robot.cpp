@@ -68,10 +68,6 @@ void add_trace_options(CLI::App& command, trace_options& options) {
     add_json_option(command, options.json_file);
 }
 
-observation rows_of(const loaded_robot& robot, const std::vector<filtered_samples>& logs, const filter_choice& filter) {
-    return observe(robot.model(), logs, filter);
-}
-
 traced_robot load_traced_robot(const trace_options& options) {
     loaded_robot robot = load_robot(options.robot);
     const std::vector<idim::log> logs = read_logs(robot, options.logs);

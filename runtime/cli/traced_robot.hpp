@@ -39,9 +39,6 @@ traced_robot load_traced_robot(const trace_options& options);
 /// The same logs with another description of the same robot.
 traced_robot with_description(const traced_robot& before, const std::string& robot_file);
 
-/// Rows of some of the logs for the model of `robot`.
-observation rows_of(const loaded_robot& robot, const std::vector<filtered_samples>& logs, const filter_choice& filter);
-
 /// Name of a joint of the model.
 std::string joint_name(const loaded_robot& robot, int joint);
 

@@ -37,7 +37,9 @@ void add_at_joints(const trace_input& input, const idim_effect& effect, const Ei
                 list.push_back(gain_candidate(j));
                 break;
             case IDIM_EFFECT_ELASTICITY:
-                if (const double compliance = first_compliance(input, j); compliance > 0.0) {
+                // The motion of motors and states are signals of such a model, which a link's own motion does not give.
+                if (const double compliance = first_compliance(input, j);
+                    compliance > 0.0 && model.n_signals <= model.dof) {
                     list.push_back(elasticity_candidate(model, chi, j, compliance));
                 }
                 break;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "idim/effect_trace.hpp"
+#include "idim/recorded_states.hpp"
 #include "idim/zero_phase_filter.hpp"
 
 namespace idim {
@@ -59,21 +60,6 @@ bool is_rigid(std::string_view name) {
     });
 }
 
-Eigen::MatrixXd torques_of(const idim_model_interface& model, const Eigen::VectorXd& chi,
-                           const filtered_samples& samples) {
-    const auto count = static_cast<std::size_t>(samples.samples());
-    const idim_samples all = {count,
-                              count,
-                              samples.q.data(),
-                              samples.qd.data(),
-                              samples.qdd.data(),
-                              samples.t.data(),
-                              samples.temp.size() > 0 ? samples.temp.data() : nullptr};
-    Eigen::MatrixXd tau(samples.samples(), model.dof);
-    model.inverse_dynamics_batch(&all, chi.data(), tau.data(), count);
-    return tau;
-}
-
 filtered_samples part_of(const filtered_samples& samples, Eigen::Index first, Eigen::Index count) {
     filtered_samples part;
     part.file = samples.file;
@@ -110,8 +96,8 @@ traced_log make_traced_log(const idim_model_interface& model, filtered_samples s
 }
 
 void update_torques(const idim_model_interface& model, const Eigen::VectorXd& chi, traced_log& log) {
-    log.tau_model = torques_of(model, chi, log.samples);
-    log.tau_rigid = torques_of(model, rigid_part(model, chi), log.samples);
+    log.tau_model = model_torques(model, log.samples, chi);
+    log.tau_rigid = model_torques(model, log.samples, rigid_part(model, chi));
 }
 
 Eigen::VectorXd rigid_part(const idim_model_interface& model, Eigen::VectorXd chi) {
