@@ -6,6 +6,7 @@
 
 #include "idim/log_parameters.hpp"
 #include "idim/recorded_states.hpp"
+#include "weighted_fit.hpp"
 
 namespace idim {
 
@@ -32,6 +33,12 @@ double change_of_torque(const observation& rows, const Eigen::VectorXd& change) 
     return all > 0.0 ? std::sqrt(moved / all) : 0.0;
 }
 
+/// Weights of the joints as an estimate leaves them.
+std::vector<double> weights_for(const fitted_rows& fit, least_squares_method method) {
+    return method == least_squares_method::ols ? std::vector<double>(static_cast<std::size_t>(fit.rows.dof), 1.0)
+                                               : weights_of(fit.result.joint_deviation);
+}
+
 }  // namespace
 
 fitted_rows fit_rows(const idim_model_interface& model, const std::vector<filtered_samples>& logs,
@@ -50,17 +57,26 @@ fitted_rows fit_rows(const idim_model_interface& model, const std::vector<filter
     // half steps are Newton's for the square root.
     const double share = has_soft_joint(model) ? 0.5 : 1.0;
     Eigen::VectorXd at = fit.result.chi;
+    std::vector<double> weight = weights_for(fit, method);
     double change = 1.0;
+    // Steps without deviations, which cost far more than the solution; they belong to the weights before them, so that
+    // the whole estimate is taken once they settle, and again where its weights move it.
     for (int step = 0; step < most_steps && change > settled && fit.result.chi.size() > 0; ++step) {
         steps.push_back({fit.result.chi, fit.result.residual.relative_error});
         at += step == 0 ? Eigen::VectorXd::Zero(at.size()) : Eigen::VectorXd(share * (fit.result.chi - at));
         fit.rows = with_log_columns(model, observe(model, logs, choice, kept, at.head(model.n_base)));
-        fit.result = least_squares(fit.rows, method);
-        if (fit.result.chi.size() > 0) {
-            change = change_of_torque(fit.rows, fit.result.chi - at);
+        fit.result = solve_weighted(fit.rows, weight).fit;
+        change = fit.result.chi.size() > 0 ? change_of_torque(fit.rows, fit.result.chi - at) : 0.0;
+        if (change <= settled) {
+            fit.result = least_squares(fit.rows, method);
+            weight = weights_for(fit, method);
+            change = fit.result.chi.size() > 0 ? change_of_torque(fit.rows, fit.result.chi - at) : 0.0;
         }
     }
     if (fit.result.chi.size() > 0) {
+        if (change > settled) {
+            fit.result = least_squares(fit.rows, method);
+        }
         steps.push_back({fit.result.chi, fit.result.residual.relative_error});
         fit.result.iterations = steps;
         fit.result.converged = fit.result.converged && change <= settled;

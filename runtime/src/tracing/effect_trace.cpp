@@ -22,6 +22,7 @@ namespace {
 constexpr double first_alignment = 0.5;  ///< of a sample: where its linearisation starts
 constexpr int linearisations = 3;
 constexpr double implausible_z = 2.0;
+constexpr double loosest_shape = 0.5;  ///< deviation of a shape over its value
 /// The error over all joints may rise by this part: other joints' parameters move within their deviations.
 constexpr double error_margin = 2e-3;
 
@@ -198,7 +199,7 @@ class tracer {
             terms.push_back(all.candidates[i].evidence.term);
             trace_fit with = settled(fit_with_own_noise(logs_, terms, &fit.noise()));
             if (errors_of(with, true).relative_error > (1.0 + error_margin) * errors_of(fit, true).relative_error ||
-                makes_implausible(fit, with)) {
+                makes_implausible(fit, with) || has_loose_shape(with)) {
                 continue;
             }
             record(fit, with, all, i);
@@ -227,6 +228,17 @@ class tracer {
             }
         }
         return false;
+    }
+
+    /// Whether the shape of the last term is anybody's guess.
+    static bool has_loose_shape(const trace_fit& fit) {
+        const effect_term& last = fit.terms().back();
+        if (last.shape.size() != 1) {
+            return false;
+        }
+        const term_values values = values_with_deviations(fit).back();
+        const Eigen::Index place = values.value.size() - 1;
+        return !(values.deviation[place] < loosest_shape * std::abs(values.value[place]));
     }
 
     /// Shapes searched and models linearised again around what was found.

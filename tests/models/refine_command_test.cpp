@@ -1,0 +1,180 @@
+// The closed loop from a log with something undeclared in it: what is found, and what is not. Torques are the closed
+// form of the paper's SCARA [IV 53] along sums of sinusoids, with white noise of 2 % of each joint's torque.
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "support/command.hpp"
+
+namespace idim::test {
+
+namespace {
+
+using json = nlohmann::json;
+
+constexpr double rate = 200.0;     // Hz
+constexpr double duration = 40.0;  // s
+
+struct instant {
+    double t = 0.0;
+    std::array<double, 2> q{}, qd{}, qdd{};
+};
+
+/// Torque of both joints that the description does not have.
+using undeclared = std::function<std::array<double, 2>(const instant&)>;
+
+double sign(double x) {
+    return static_cast<double>(x > 0.0) - static_cast<double>(x < 0.0);
+}
+
+instant motion(double t, int which) {
+    constexpr std::array<std::array<double, 4>, 4> frequency = {
+        {{0.11, 0.23, 0.53, 0.89}, {0.13, 0.31, 0.61, 1.03}, {0.07, 0.19, 0.43, 0.97}, {0.17, 0.29, 0.67, 0.83}}};
+    constexpr std::array<double, 4> amplitude = {0.8, 0.5, 0.25, 0.12};
+    instant now;
+    now.t = t;
+    for (std::size_t j = 0; j < 2; ++j) {
+        for (std::size_t i = 0; i < 4; ++i) {
+            const double w = 2.0 * M_PI * frequency[static_cast<std::size_t>(2 * which) + j][i];
+            const double phase = 0.7 * static_cast<double>(i) + static_cast<double>(j) + static_cast<double>(which);
+            now.q[j] += amplitude[i] * std::sin(w * t + phase);
+            now.qd[j] += amplitude[i] * w * std::cos(w * t + phase);
+            now.qdd[j] -= amplitude[i] * w * w * std::sin(w * t + phase);
+        }
+    }
+    return now;
+}
+
+/// [IV 53] with L = 0.5 m and the values of its table 1.
+std::array<double, 2> scara_torque(const instant& s) {
+    constexpr double ZZ1 = 3.44, ZZ2 = 0.062, X = 0.121, Y = 0.007, Fv1 = 0.03, Fc1 = 0.82, Fv2 = 0.013, Fc2 = 0.137;
+    const double c = std::cos(s.q[1]);
+    const double n = std::sin(s.q[1]);
+    const double both = s.qdd[0] + s.qdd[1];
+    const double twice = 2.0 * s.qdd[0] + s.qdd[1];
+    const double cross = s.qd[1] * (2.0 * s.qd[0] + s.qd[1]);
+    return {ZZ1 * s.qdd[0] + ZZ2 * both + X * (twice * c - cross * n) - Y * (twice * n + cross * c) + Fv1 * s.qd[0] +
+                Fc1 * sign(s.qd[0]),
+            ZZ2 * both + X * (s.qdd[0] * c + s.qd[0] * s.qd[0] * n) + Y * (s.qd[0] * s.qd[0] * c - s.qdd[0] * n) +
+                Fv2 * s.qd[1] + Fc2 * sign(s.qd[1])};
+}
+
+std::string log_text(int which, unsigned seed, const undeclared& missing) {
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal;
+    std::string text = "t,q1,q2,tau1,tau2\n";
+    const int samples = static_cast<int>(duration * rate);
+    for (int k = 0; k < samples; ++k) {
+        const instant s = motion(k / rate, which);
+        const std::array<double, 2> torque = scara_torque(s);
+        const std::array<double, 2> extra = missing(s);
+        text += fmt::format("{},{},{},{},{}\n", s.t, s.q[0] + 1e-6 * normal(random), s.q[1] + 1e-6 * normal(random),
+                            torque[0] + extra[0] + 0.3 * normal(random), torque[1] + extra[1] + 0.02 * normal(random));
+    }
+    return text;
+}
+
+class RefineCommand : public ::testing::Test {
+  protected:
+    json refine(const undeclared& missing) {
+        const std::string robot = folder_.write("arm.yaml",
+                                                "name: arm\ngravity: [0, 0, 0]   # flat\njoints:\n"
+                                                "  - {name: j1, theta: q}\n  - {name: j2, d: 0.5, theta: q}\n"
+                                                "effects: [viscous_friction, coulomb_friction]   # both joints\n");
+        const std::string fitted = folder_.write("ident.csv", log_text(0, 1, missing));
+        const std::string other = folder_.write("valid.csv", log_text(1, 2, missing));
+        const command_result answer =
+            run_idim({"refine", robot, fitted, "--validation", other, "-o", output(), "--json", output() + ".json"});
+        EXPECT_EQ(answer.status, 0) << answer.err;
+        return json::parse(read_text(output() + ".json"));
+    }
+    std::string output() const { return (folder_.path() / "refined").string(); }
+
+    temporary_folder folder_;
+};
+
+/// One effect, at the right place, that lowers the error on the log it was not fitted to.
+void expect_one(const json& result, const std::string& effect, const json& joints) {
+    EXPECT_EQ(result["verdict"], "effects_added");
+    ASSERT_EQ(result["steps"].size(), 1U) << result["steps"].dump();
+    const json& step = result["steps"][0];
+    EXPECT_EQ(step["effect"], effect);
+    EXPECT_EQ(step["joints"], joints);
+    EXPECT_LT(result["after"]["validation"]["joints"][1]["relative_error"],
+              0.9 * double(result["before"]["validation"]["joints"][1]["relative_error"]));
+}
+
+/// Within four deviations: one value in 16 000 of a right interval lies outside.
+void expect_near(const json& parameter, double truth) {
+    EXPECT_NEAR(parameter["value"], truth, 4.0 * double(parameter["std"]));
+    EXPECT_LT(double(parameter["std"]), 0.25 * std::abs(truth));
+}
+
+TEST_F(RefineCommand, FindsNothingWhereNothingIsMissing) {
+    const json result = refine([](const instant&) { return std::array<double, 2>{}; });
+    EXPECT_EQ(result["verdict"], "no_missing_effect");
+    EXPECT_TRUE(result["steps"].empty());
+    EXPECT_EQ(result["before"], result["after"]);
+}
+
+TEST_F(RefineCommand, ASpringIsFoundWithItsStiffness) {
+    const json result = refine([](const instant& s) { return std::array<double, 2>{0.0, 0.04 * s.q[1] + 0.01}; });
+    expect_one(result, "spring", {"j2"});
+    expect_near(result["steps"][0]["parameters"]["K"], 0.04);
+}
+
+TEST_F(RefineCommand, RippleIsFoundWithItsPeriod) {
+    const json result = refine([](const instant& s) {
+        return std::array<double, 2>{0.0, 0.03 * std::cos(11.3 * s.q[1]) - 0.01 * std::sin(11.3 * s.q[1])};
+    });
+    expect_one(result, "torque_ripple", {"j2"});
+    EXPECT_NEAR(result["steps"][0]["parameters"]["k"]["value"], 11.3, 0.05 * 11.3);
+    expect_near(result["steps"][0]["parameters"]["Ac"], 0.03);
+}
+
+TEST_F(RefineCommand, FrictionOfTheOtherJointIsFoundAtThePair) {
+    const json result = refine([](const instant& s) { return std::array<double, 2>{0.0, 0.03 * sign(s.qd[0])}; });
+    expect_one(result, "coupling_friction", {"j2"});
+    EXPECT_EQ(result["steps"][0]["from"], json({"j1"}));
+    expect_near(result["steps"][0]["parameters"]["Fcc"], 0.03);
+}
+
+TEST_F(RefineCommand, LeavesADescriptionAndCodeThatReproduceTheResult) {
+    const json result = refine([](const instant& s) { return std::array<double, 2>{0.0, 0.04 * s.q[1]}; });
+    const std::string description = read_text(output() + "/robot.yaml");
+    EXPECT_NE(description.find("gravity: [0, 0, 0]   # flat\n"), std::string::npos) << description;
+    EXPECT_NE(description.find("{effect: spring, joints: [j2]}"), std::string::npos) << description;
+    const command_result current =
+        run_idim({"generate", output() + "/robot.yaml", "-o", output() + "/model", "--check"});
+    EXPECT_EQ(current.status, 0) << current.out;
+    const command_result errors = run_idim({"validate", output() + "/robot.yaml", output() + "/after.json",
+                                            (folder_.path() / "valid.csv").string(), "--json", "-"});
+    ASSERT_EQ(errors.status, 0) << errors.err;
+    EXPECT_EQ(json::parse(errors.out)["relative_error"], result["after"]["validation"]["relative_error"]);
+    EXPECT_NE(read_text(output() + "/model.diff").find("+"), std::string::npos);
+    EXPECT_NE(read_text(output() + "/report.md").find("spring at j2"), std::string::npos);
+}
+
+TEST_F(RefineCommand, DiagnosisNamesTheEffectAndAddsNothing) {
+    const std::string robot = folder_.write("arm.yaml",
+                                            "name: arm\ngravity: [0, 0, 0]\njoints:\n  - {name: j1, theta: q}\n"
+                                            "  - {name: j2, d: 0.5, theta: q}\n"
+                                            "effects: [viscous_friction, coulomb_friction]\n");
+    const undeclared spring = [](const instant& s) { return std::array<double, 2>{0.0, 0.04 * s.q[1]}; };
+    const std::string log = folder_.write("ident.csv", log_text(0, 1, spring));
+    const command_result answer = run_idim({"diagnose", robot, log, "--json", "-"});
+    ASSERT_EQ(answer.status, 0) << answer.err;
+    const json result = json::parse(answer.out);
+    EXPECT_EQ(result["verdict"], "unexplained_residual");
+    EXPECT_EQ(result["candidates"][0]["effect"], "spring");
+    EXPECT_TRUE(result["steps"].empty());
+}
+
+}  // namespace
+
+}  // namespace idim::test
