@@ -48,9 +48,10 @@ base_report report(const robot_model& model) {
     return result;
 }
 
-/// Of what the model depends on: the description as read (comments and layout left out), its effects and the version.
-std::string hash_inputs(const robot_model& model) {
-    std::string text = std::string("idim ") + version() + "\n" + to_string(model.description);
+/// Of what the model depends on: the description as read (comments and layout left out), its effects, the version and
+/// what it was made cheap for.
+std::string hash_inputs(const robot_model& model, const std::string& cost) {
+    std::string text = fmt::format("idim {}\ncost {}\n{}", version(), cost, to_string(model.description));
     for (const effect_description& effect : model.effects) {
         text += fmt::format("effect {} {} {} {}\n", effect.name, static_cast<int>(effect.scope), effect.acts_on_both,
                             effect.torque.text);
@@ -94,16 +95,18 @@ generated_model generate(const std::string& robot_file, const std::string& templ
     result.robot = model.description.name;
     result.target = options.target;
     result.base = report(model);
-    result.input_hash = hash_inputs(model);
+    result.cost = options.cost;
+    result.input_hash = hash_inputs(model, options.cost);
+    const cost_target target = cost_target_of(options.cost);
     model_operations counts;
     const template_context context =
-        build_context(model, {version(), result.input_hash}, languages_of(options.target), counts);
+        build_context(model, {version(), result.input_hash, target}, languages_of(options.target), counts);
     result.joints = context.joints;
     result.operations = table(counts);
     result.files = render(context, templates + "/" + options.target);
     result.files.push_back(manifest_of(model, context, result));
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    result.rigid_operations = model.description.effects.empty() ? result.operations : table(count_rigid(model));
+    result.rigid_operations = model.description.effects.empty() ? result.operations : table(count_rigid(model, target));
     return result;
 }
 

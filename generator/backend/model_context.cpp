@@ -3,20 +3,23 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <set>
 
+#include "backend/form_choice.hpp"
 #include "backend/function_spelling.hpp"
 #include "dynamics/dynamic_models.hpp"
+#include "graph/sum_rewriting.hpp"
 
 namespace idim::generator {
 
 namespace {
 
-using model_builder =
-    std::function<symbolic_model(const kinematic_tree&, const standard_parameters&, const parameter_selection&)>;
+using model_builder = std::function<symbolic_model(const kinematic_tree&, const standard_parameters&,
+                                                   const parameter_selection&, const model_form&)>;
 
 /// A generated function before it is derived.
 struct function_plan {
@@ -25,7 +28,16 @@ struct function_plan {
     std::vector<std::string> inputs;
     std::vector<std::string> outputs;
     model_builder build;
+    form_space forms;
 };
+
+using merging = model_form::merging;
+
+/// Of models that take a torque from a motion, without and with M, and of the regressor.
+const form_space torque_forms = {{merging::tips, true, true, false}, true, false, true, true};
+const form_space inertia_forms = {{merging::all, true, true, true}, true, true, true, false};
+const form_space gravity_forms = {{merging::all, false, true, false}, false, false, false, false};
+const form_space regressor_forms = {{merging::none, false, false, true}, false, true, false, false};
 
 std::vector<function_plan> plans() {
     return {
@@ -33,24 +45,33 @@ std::vector<function_plan> plans() {
          "Regressor of the base parameters: tau = W(q, qd, qdd) chi.",
          {"q", "qd", "qdd", "t", "temp"},
          {"W"},
-         regressor_model},
+         regressor_model,
+         regressor_forms},
         {"inverse_dynamics",
          "Inverse dynamic model: tau = M(q) qdd + N(q, qd).",
          {"q", "qd", "qdd", "t", "temp", "chi"},
          {"tau"},
-         inverse_dynamics_model},
-        {"mass_matrix", "Inertia matrix of the robot with its drives.", {"q", "chi"}, {"M"}, mass_matrix_model},
+         inverse_dynamics_model,
+         torque_forms},
+        {"mass_matrix",
+         "Inertia matrix of the robot with its drives.",
+         {"q", "chi"},
+         {"M"},
+         mass_matrix_model,
+         inertia_forms},
         {"bias",
          "Torque at zero acceleration: centrifugal, Coriolis, gravity, friction and other effects.",
          {"q", "qd", "t", "temp", "chi"},
          {"N"},
-         bias_model},
-        {"gravity", "Torque that holds the rigid links at rest.", {"q", "chi"}, {"G"}, gravity_model},
+         bias_model,
+         torque_forms},
+        {"gravity", "Torque that holds the rigid links at rest.", {"q", "chi"}, {"G"}, gravity_model, gravity_forms},
         {"forward_dynamics",
          "Direct dynamic model: qdd = M(q)^-1 (tau - N(q, qd)), by M = L' D L.",
          {"q", "qd", "tau", "t", "temp", "chi"},
          {"qdd", "D"},
-         forward_dynamics_model},
+         forward_dynamics_model,
+         inertia_forms},
     };
 }
 
@@ -98,9 +119,16 @@ std::vector<function_argument> arguments(const function_plan& plan, const robot_
 // That takes constants as symbols, and lengths that are equal, sums and products of lengths are then no longer shared
 // and folded: 1 to 6 multiplications more in M and in the direct model (Denso 125 -> 130, PUMA 137 -> 143), none
 // elsewhere. Kept as values: a changed length touches few lines, and each of them holds it.
-model_function derive(const function_plan& plan, const robot_model& model) {
-    return {plan.name, plan.summary, arguments(plan, model),
-            build_graph(plan.build(model.tree, model.parameters, model.base.selection()), constants_as::values)};
+expression_graph cheapest(const function_plan& plan, const robot_model& model, const parameter_selection& selection,
+                          cost_target target) {
+    return in_cheapest_form(model.tree, plan.forms, target, [&](const model_form& form) {
+        return with_rewritten_sums(
+            build_graph(plan.build(model.tree, model.parameters, selection, form), constants_as::values));
+    });
+}
+
+model_function derive(const function_plan& plan, const robot_model& model, cost_target target) {
+    return {plan.name, plan.summary, arguments(plan, model), cheapest(plan, model, model.base.selection(), target)};
 }
 
 /// chi = standard parameters regrouped: what a-priori values of links become.
@@ -121,7 +149,7 @@ model_function derive_regrouping(const robot_model& model) {
         graph.output("chi", static_cast<int>(k), sum);
     }
     const function_plan plan{
-        "regroup", "Base parameters of a robot whose standard parameters are known.", {"standard"}, {"chi"}, {}};
+        "regroup", "Base parameters of a robot whose standard parameters are known.", {"standard"}, {"chi"}, {}, {}};
     return {plan.name, plan.summary, arguments(plan, model), graph};
 }
 
@@ -196,6 +224,7 @@ template_context build_context(const robot_model& model, const file_origin& orig
     context.version = origin.version;
     context.robot_file = std::filesystem::path(model.description.file).filename().string();
     context.input_hash = origin.input_hash;
+    context.cost = to_string(origin.cost);
     context.constants = constant_list(model);
     context.effects = effect_list(model.description);
     context.joints = joints(model);
@@ -209,7 +238,7 @@ template_context build_context(const robot_model& model, const file_origin& orig
     context.uses_temperature = model.parameters.uses_temperature;
     std::vector<model_function> functions;
     for (const function_plan& plan : plans()) {
-        functions.push_back(derive(plan, model));
+        functions.push_back(derive(plan, model, origin.cost));
     }
     functions.push_back(derive_regrouping(model));
     spelled_models spelled = spell(functions, names_of(context), spellings);
@@ -220,13 +249,13 @@ template_context build_context(const robot_model& model, const file_origin& orig
     return context;
 }
 
-model_operations count_rigid(const robot_model& model) {
-    const auto count = [&model](const model_builder& build) {
-        return count_operations(
-            build_graph(build(model.tree, model.parameters, model.base.rigid), constants_as::values));
+model_operations count_rigid(const robot_model& model, cost_target target) {
+    const std::vector<function_plan> all = plans();
+    const auto count = [&](const char* name) {
+        const auto plan = std::find_if(all.begin(), all.end(), [name](const auto& p) { return p.name == name; });
+        return count_operations(cheapest(*plan, model, model.base.rigid, target));
     };
-    return {count(inverse_dynamics_model), count(regressor_model), count(mass_matrix_model),
-            count(forward_dynamics_model)};
+    return {count("inverse_dynamics"), count("regressor"), count("mass_matrix"), count("forward_dynamics")};
 }
 
 }  // namespace idim::generator
