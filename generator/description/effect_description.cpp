@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <string_view>
 #include <system_error>
 
@@ -103,10 +104,63 @@ std::vector<shape_coefficient> read_shape(const yaml_fields& effect, const std::
     return result;
 }
 
+effect_kind read_kind(const yaml_value& written) {
+    static const std::map<std::string, effect_kind> kinds = {
+        {"expression", effect_kind::expression}, {"delay", effect_kind::delay}, {"gain", effect_kind::gain},
+        {"elasticity", effect_kind::elasticity}, {"tilt", effect_kind::tilt},   {"payload", effect_kind::payload}};
+    constexpr const char* expected = "expression, delay, gain, elasticity, tilt or payload";
+    const auto found = kinds.find(written.text(expected));
+    if (found == kinds.end()) {
+        written.reject(expected);
+    }
+    return found->second;
+}
+
+bool read_yes(const yaml_value& written) {
+    const std::string text = written.text("true or false");
+    if (text != "true" && text != "false") {
+        written.reject("true or false");
+    }
+    return text == "true";
+}
+
+std::vector<effect_state> read_states(const yaml_fields& effect) {
+    std::vector<effect_state> result;
+    if (const auto written = effect.find("state")) {
+        for (const auto& [name, value] : written->entries("a map of states to {start, next}")) {
+            effect_state state;
+            state.name = checked_symbol(name, value.where());
+            const yaml_fields fields(value, {"start", "next"});
+            if (const auto start = fields.find("start")) {
+                state.start = {start->expression(), start->where()};
+            }
+            const yaml_value next = fields.require("next", "an expression of the signals, dt and the states");
+            state.next = {next.expression(), next.where()};
+            result.push_back(state);
+        }
+    }
+    return result;
+}
+
+void read_torque(const yaml_fields& fields, effect_description& effect) {
+    if (const auto kind = fields.find("kind")) {
+        effect.kind = read_kind(*kind);
+    }
+    if (effect.kind != effect_kind::expression) {
+        return;
+    }
+    const yaml_value torque = fields.require("torque", "an expression of the signals and coefficients");
+    effect.torque = {torque.expression(), torque.where()};
+    if (const auto other = fields.find("torque_without_temperature")) {
+        effect.torque_without_temperature = {other->expression(), other->where()};
+    }
+}
+
 }  // namespace
 
 effect_description read_effect(const std::string& file) {
-    const yaml_fields fields(read_yaml(file), {"effect", "per", "acts_on", "torque", "linear", "shape", "about"});
+    const yaml_fields fields(read_yaml(file), {"effect", "per", "acts_on", "kind", "torque", "torque_without_temperature",
+                                               "per_log", "state", "linear", "shape", "about"});
     effect_description effect;
     effect.file = file;
     const yaml_value name = fields.require("effect", "the name of the effect");
@@ -118,8 +172,11 @@ effect_description read_effect(const std::string& file) {
     if (const auto acts_on = fields.find("acts_on")) {
         effect.acts_on_both = read_acts_on_both(*acts_on, effect.scope);
     }
-    const yaml_value torque = fields.require("torque", "an expression of the signals and coefficients");
-    effect.torque = {torque.expression(), torque.where()};
+    read_torque(fields, effect);
+    if (const auto per_log = fields.find("per_log")) {
+        effect.per_log = read_yes(*per_log);
+    }
+    effect.states = read_states(fields);
     effect.linear = read_linear(fields);
     effect.shape = read_shape(fields, effect.linear);
     if (effect.linear.empty() && effect.shape.empty()) {

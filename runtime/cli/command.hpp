@@ -23,6 +23,8 @@ void add_diff_command(CLI::App& app, action& chosen);
 void add_identify_command(CLI::App& app, action& chosen);
 void add_validate_command(CLI::App& app, action& chosen);
 void add_simulate_command(CLI::App& app, action& chosen);
+void add_diagnose_command(CLI::App& app, action& chosen);
+void add_refine_command(CLI::App& app, action& chosen);
 
 /// Adds --json FILE (`-` for standard output).
 void add_json_option(CLI::App& command, std::string& file);

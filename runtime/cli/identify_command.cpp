@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "identification.hpp"
 #include "identified_parameters.hpp"
 #include "idim/estimate.hpp"
 #include "idim/input_error.hpp"
@@ -23,93 +24,6 @@ const std::map<std::string, least_squares_method>& methods() {
     static const std::map<std::string, least_squares_method> names = {
         {"ols", least_squares_method::ols}, {"wls", least_squares_method::wls}, {"irls", least_squares_method::irls}};
     return names;
-}
-
-/// What the command knows at the end.
-struct identification {
-    loaded_robot robot;
-    filter_choice filter;
-    observation rows;
-    estimate result;
-    essential_parameters essential;
-};
-
-double relative_percent(double std, double value) {
-    return 100.0 * std / std::abs(value);
-}
-
-json parameters_json(const identification& found) {
-    json list = json::array();
-    const Eigen::VectorXd std = found.result.deviations();
-    for (Eigen::Index k = 0; k < found.result.chi.size(); ++k) {
-        const auto& parameter = found.robot.generated.base.parameters[static_cast<std::size_t>(k)];
-        list.push_back({{"name", parameter.name},
-                        {"value", found.result.chi[k]},
-                        {"std", std[k]},
-                        {"relative_std_percent", finite(relative_percent(std[k], found.result.chi[k]))},
-                        {"unit", parameter.unit},
-                        {"regroups", parameter.regroups}});
-    }
-    return list;
-}
-
-json iterations_json(const estimate& result) {
-    json list = json::array();
-    for (const iteration& step : result.iterations) {
-        list.push_back({{"parameters", std::vector<double>(step.chi.begin(), step.chi.end())},
-                        {"relative_error", finite(step.relative_error)}});
-    }
-    return list;
-}
-
-json essential_json(const identification& found) {
-    json kept = json::array();
-    for (const int k : found.essential.kept) {
-        kept.push_back({{"name", found.robot.generated.base.parameters[static_cast<std::size_t>(k)].name},
-                        {"value", found.essential.chi[k]},
-                        {"std", found.essential.std[k]}});
-    }
-    return {{"parameters", kept},
-            {"f_statistic", finite(found.essential.f_statistic)},
-            {"p_value", finite(found.essential.p_value)},
-            {"residual", to_json(found.essential.residual, found.robot)}};
-}
-
-json names_json(const identification& found, const std::vector<int>& columns) {
-    json names = json::array();
-    for (const int k : columns) {
-        names.push_back(found.robot.generated.base.parameters[static_cast<std::size_t>(k)].name);
-    }
-    return names;
-}
-
-json identification_json(const identification& found, const std::string& method) {
-    json rates = json::array();
-    json files = json::array();
-    for (const observation_block& block : found.rows.blocks) {
-        rates.push_back(block.rate);
-        files.push_back(block.file);
-    }
-    const double full_rate = found.rows.blocks.front().rate * found.filter.decimation;
-    return {{"robot", found.robot.generated.robot},
-            {"input_hash", found.robot.generated.input_hash},
-            {"method", method},
-            {"converged", found.result.converged},
-            {"message", found.result.message},
-            {"logs", files},
-            {"filter", to_json(found.filter)},
-            {"band", found.filter.band(full_rate)},
-            {"row_rates", rates},
-            {"iterations", iterations_json(found.result)},
-            {"samples", found.result.samples},
-            {"rank", found.result.rank},
-            {"condition_number", finite(found.result.condition_number)},
-            {"scaled_condition_number", finite(found.result.scaled_condition_number)},
-            {"correlation_length", found.result.correlation_length},
-            {"not_excited", names_json(found, found.result.not_excited)},
-            {"parameters", parameters_json(found)},
-            {"essential", found.result.chi.size() > 0 ? essential_json(found) : json(nullptr)},
-            {"residual", found.result.chi.size() > 0 ? to_json(found.result.residual, found.robot) : json(nullptr)}};
 }
 
 void print_parameters(const identification& found) {
@@ -175,7 +89,7 @@ std::string explain_standstill(const loaded_robot& robot, const std::vector<std:
 }
 
 int run(const identify_options& options) {
-    loaded_robot robot = load_robot(options.robot);
+    const loaded_robot robot = load_robot(options.robot);
     const Eigen::VectorXd truth = options.truth.empty() ? Eigen::VectorXd() : read_parameters(options.truth, robot).chi;
     const std::vector<idim::log> logs = read_logs(robot, options.logs);
     const std::vector<std::string> at_rest = joints_at_rest(robot, logs);
@@ -183,14 +97,9 @@ int run(const identify_options& options) {
         throw data_error(explain_standstill(robot, at_rest));
     }
     const filter_choice filter = choose_filter(logs, options.filter);
-    observation rows = observe_logs(robot, logs, filter);
-    estimate result = least_squares(rows, methods().at(options.method));
-    essential_parameters essential;
-    if (result.chi.size() > 0) {
-        essential = find_essential(rows, result);
-    }
-    const identification found{std::move(robot), filter, std::move(rows), std::move(result), std::move(essential)};
-    write_json(options.json_file, identification_json(found, options.method));
+    const identification found =
+        identify(robot, filter, observe_logs(robot, logs, filter), methods().at(options.method));
+    write_json(options.json_file, to_json(found, options.method));
     if (found.result.chi.size() == 0) {
         throw data_error(found.result.not_excited.empty() ? found.result.message : explain(found, at_rest));
     }

@@ -47,6 +47,8 @@ int main(int argc, char** argv) {
     add_simulate_command(app, chosen);
     add_identify_command(app, chosen);
     add_validate_command(app, chosen);
+    add_diagnose_command(app, chosen);
+    add_refine_command(app, chosen);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& asked) {

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "catalogue/effect_library.hpp"
 #include "idim/input_error.hpp"
 #include "resources.hpp"
 
@@ -36,6 +37,16 @@ loaded_robot load_robot(const std::string& robot_file) {
     print_notes(robot_file, generated.base.notes);
     compiled_model compiled = compile_files(generated.files, generated.input_hash);
     return {std::move(generated), std::move(compiled)};
+}
+
+compiled_effects load_effects(const std::string& robot_file) {
+    const generator::effect_library library = generator::generate_effects(robot_file, templates_folder());
+    std::vector<model_source> sources;
+    for (const generator::rendered_file& file : library.files) {
+        sources.push_back({file.name, file.text});
+    }
+    sources.push_back({"idim/effect_interface.h", read_text(include_folder() + "/idim/effect_interface.h")});
+    return compile_effects(sources);
 }
 
 log_columns columns_of(const loaded_robot& robot) {

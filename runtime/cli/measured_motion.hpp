@@ -26,6 +26,9 @@ compiled_model compile_files(const std::vector<generator::rendered_file>& files,
 /// Generates, compiles (or takes from the cache) and loads the model of a robot description.
 loaded_robot load_robot(const std::string& robot_file);
 
+/// Generates, compiles (or takes from the cache) and loads the effects that a residual of this robot may be traced to.
+compiled_effects load_effects(const std::string& robot_file);
+
 /// Names and drive gains for reading a log of this robot.
 log_columns columns_of(const loaded_robot& robot);
 

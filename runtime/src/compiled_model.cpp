@@ -18,24 +18,35 @@ namespace {
 /// What one call asks for.
 struct compile_request {
     const std::vector<model_source>& sources;
-    const std::string& input_hash;
     system_compiler compiler;
 };
+
+/// The table that a loaded library gives through its one function. Throws std::runtime_error where it has none.
+template <class Table>
+const Table* handshake_of(const std::shared_ptr<void>& library, const char* function) {
+    using getter = const Table* (*)();
+    const auto get = reinterpret_cast<getter>(dlsym(library.get(), function));
+    if (get == nullptr) {
+        throw std::runtime_error(fmt::format("it has no function {}", function));
+    }
+    const Table* const table = get();
+    if (table == nullptr) {
+        throw std::runtime_error(fmt::format("{}() gives nothing", function));
+    }
+    return table;
+}
+
+void check_abi(int found, int expected) {
+    if (found != expected) {
+        throw std::runtime_error(fmt::format("its interface is version {}, not {}", found, expected));
+    }
+}
 
 /// Throws std::runtime_error saying what is wrong with the model.
 compiled_model load_model(const std::string& bytes, const std::string& input_hash) {
     std::shared_ptr<void> library = load_library(bytes);
-    const auto handshake = reinterpret_cast<decltype(&idim_model)>(dlsym(library.get(), "idim_model"));
-    if (handshake == nullptr) {
-        throw std::runtime_error("it has no function idim_model");
-    }
-    const idim_model_interface* const model = handshake();
-    if (model == nullptr) {
-        throw std::runtime_error("idim_model() gives no model");
-    }
-    if (model->abi != IDIM_MODEL_ABI) {
-        throw std::runtime_error(fmt::format("its interface is version {}, not {}", model->abi, IDIM_MODEL_ABI));
-    }
+    const auto* const model = handshake_of<idim_model_interface>(library, "idim_model");
+    check_abi(model->abi, IDIM_MODEL_ABI);
     if (model->input_hash == nullptr || model->input_hash != input_hash) {
         throw std::runtime_error(fmt::format("its input hash is '{}', not '{}'",
                                              model->input_hash == nullptr ? "" : model->input_hash, input_hash));
@@ -43,41 +54,55 @@ compiled_model load_model(const std::string& bytes, const std::string& input_has
     return compiled_model(std::move(library), model);
 }
 
-compiled_model open_entry(const cache_slot& slot, const compile_request& request) {
-    return load_model(read_entry(slot.entry(), request.sources), request.input_hash);
+compiled_effects load_effects(const std::string& bytes) {
+    std::shared_ptr<void> library = load_library(bytes);
+    const auto* const table = handshake_of<idim_effect_table>(library, "idim_effects");
+    check_abi(table->abi, IDIM_EFFECT_ABI);
+    return compiled_effects(std::move(library), table);
 }
 
-compiled_model compile_in(const std::filesystem::path& cache, const compile_request& request) {
+template <class Load>
+auto compile_in(const std::filesystem::path& cache, const compile_request& request, const Load& load) {
     const cache_slot slot(cache, entry_key(request.sources, request.compiler));
+    const auto open = [&] { return load(read_entry(slot.entry(), request.sources)); };
     try {
-        return open_entry(slot, request);
+        return open();
     } catch (const std::runtime_error&) {
         slot.replace(
             [&](const std::filesystem::path& folder) { build_entry(folder, request.sources, request.compiler); });
     }
     try {
-        return open_entry(slot, request);
+        return open();
     } catch (const std::runtime_error& error) {
         slot.clear();
         throw std::runtime_error(std::string("the compiled model cannot be used: ") + error.what());
     }
 }
 
-}  // namespace
-
-compiled_model compile_model(const std::vector<model_source>& sources, const std::string& input_hash,
-                             const compile_options& options) {
+template <class Load>
+auto compile_sources(const std::vector<model_source>& sources, const compile_options& options, const Load& load) {
     require_source_names(sources);
-    const compile_request request{sources, input_hash, find_compiler(options.compiler)};
+    const compile_request request{sources, find_compiler(options.compiler)};
     if (const std::optional<std::filesystem::path> cache = usable_cache(options.cache)) {
         try {
-            return compile_in(*cache, request);
+            return compile_in(*cache, request, load);
         } catch (const std::system_error&) {
             // A full disk, or an entry of another user: as good as no cache.
         }
     }
     const private_folder folder(std::filesystem::temp_directory_path() / "idim-");
-    return compile_in(folder.path(), request);
+    return compile_in(folder.path(), request, load);
+}
+
+}  // namespace
+
+compiled_model compile_model(const std::vector<model_source>& sources, const std::string& input_hash,
+                             const compile_options& options) {
+    return compile_sources(sources, options, [&](const std::string& bytes) { return load_model(bytes, input_hash); });
+}
+
+compiled_effects compile_effects(const std::vector<model_source>& sources, const compile_options& options) {
+    return compile_sources(sources, options, [](const std::string& bytes) { return load_effects(bytes); });
 }
 
 }  // namespace idim

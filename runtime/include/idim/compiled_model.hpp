@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "idim/effect_interface.h"
 #include "idim/model_interface.h"
 
 namespace idim {
@@ -27,6 +28,19 @@ class compiled_model {
     const idim_model_interface* model_;
 };
 
+/// Generated effects, compiled and loaded likewise.
+class compiled_effects {
+  public:
+    explicit compiled_effects(std::shared_ptr<void> library, const idim_effect_table* table)
+        : library_(std::move(library)), table_(table) {}
+
+    const idim_effect_table& table() const { return *table_; }
+
+  private:
+    std::shared_ptr<void> library_;
+    const idim_effect_table* table_;
+};
+
 /// Where and how models are compiled; every field has a default.
 struct compile_options {
     std::string
@@ -43,5 +57,8 @@ struct compile_options {
 /// message where it fails, or where there is no compiler.
 compiled_model compile_model(const std::vector<model_source>& sources, const std::string& input_hash,
                              const compile_options& options = {});
+
+/// The same for the source of generated effects.
+compiled_effects compile_effects(const std::vector<model_source>& sources, const compile_options& options = {});
 
 }  // namespace idim

@@ -1,0 +1,99 @@
+#include "identification.hpp"
+
+#include <cmath>
+
+namespace idim::cli {
+
+namespace {
+
+json parameters_json(const identification& found) {
+    json list = json::array();
+    const Eigen::VectorXd std = found.result.deviations();
+    for (Eigen::Index k = 0; k < found.result.chi.size(); ++k) {
+        const auto& parameter = found.robot.generated.base.parameters[static_cast<std::size_t>(k)];
+        list.push_back({{"name", parameter.name},
+                        {"value", found.result.chi[k]},
+                        {"std", std[k]},
+                        {"relative_std_percent", finite(relative_percent(std[k], found.result.chi[k]))},
+                        {"unit", parameter.unit},
+                        {"regroups", parameter.regroups}});
+    }
+    return list;
+}
+
+json iterations_json(const estimate& result) {
+    json list = json::array();
+    for (const iteration& step : result.iterations) {
+        list.push_back({{"parameters", std::vector<double>(step.chi.begin(), step.chi.end())},
+                        {"relative_error", finite(step.relative_error)}});
+    }
+    return list;
+}
+
+json essential_json(const identification& found) {
+    json kept = json::array();
+    for (const int k : found.essential.kept) {
+        kept.push_back({{"name", found.robot.generated.base.parameters[static_cast<std::size_t>(k)].name},
+                        {"value", found.essential.chi[k]},
+                        {"std", found.essential.std[k]}});
+    }
+    return {{"parameters", kept},
+            {"f_statistic", finite(found.essential.f_statistic)},
+            {"p_value", finite(found.essential.p_value)},
+            {"residual", to_json(found.essential.residual, found.robot)}};
+}
+
+json names_json(const identification& found, const std::vector<int>& columns) {
+    json names = json::array();
+    for (const int k : columns) {
+        names.push_back(found.robot.generated.base.parameters[static_cast<std::size_t>(k)].name);
+    }
+    return names;
+}
+
+}  // namespace
+
+double relative_percent(double std, double value) {
+    return 100.0 * std / std::abs(value);
+}
+
+identification identify(const loaded_robot& robot, const filter_choice& filter, observation rows,
+                        least_squares_method method) {
+    estimate result = least_squares(rows, method);
+    essential_parameters essential;
+    if (result.chi.size() > 0) {
+        essential = find_essential(rows, result);
+    }
+    return {robot, filter, std::move(rows), std::move(result), std::move(essential)};
+}
+
+json to_json(const identification& found, const std::string& method) {
+    json rates = json::array();
+    json files = json::array();
+    for (const observation_block& block : found.rows.blocks) {
+        rates.push_back(block.rate);
+        files.push_back(block.file);
+    }
+    const double full_rate = found.rows.blocks.front().rate * found.filter.decimation;
+    return {{"robot", found.robot.generated.robot},
+            {"input_hash", found.robot.generated.input_hash},
+            {"method", method},
+            {"converged", found.result.converged},
+            {"message", found.result.message},
+            {"logs", files},
+            {"filter", to_json(found.filter)},
+            {"band", found.filter.band(full_rate)},
+            {"row_rates", rates},
+            {"iterations", iterations_json(found.result)},
+            {"samples", found.result.samples},
+            {"rank", found.result.rank},
+            {"condition_number", finite(found.result.condition_number)},
+            {"scaled_condition_number", finite(found.result.scaled_condition_number)},
+            {"correlation_length", found.result.correlation_length},
+            {"not_excited", names_json(found, found.result.not_excited)},
+            {"parameters", parameters_json(found)},
+            {"essential", found.result.chi.size() > 0 ? essential_json(found) : json(nullptr)},
+            {"residual", found.result.chi.size() > 0 ? to_json(found.result.residual, found.robot) : json(nullptr)}};
+}
+
+}  // namespace idim::cli

@@ -1,0 +1,177 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+#include "emit/model_folder.hpp"
+#include "idim/input_error.hpp"
+#include "idim/unified_diff.hpp"
+#include "refine_report.hpp"
+#include "refined_description.hpp"
+#include "trace_json.hpp"
+#include "traced_robot.hpp"
+
+namespace idim::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct refine_options : trace_options {
+    std::string folder;
+    int most_effects = 12;
+};
+
+least_squares_method method_of(const std::string& name) {
+    return name == "ols"    ? least_squares_method::ols
+           : name == "irls" ? least_squares_method::irls
+                            : least_squares_method::wls;
+}
+
+/// Identified on the logs to fit; errors on these and on those held back.
+struct identified_robot {
+    identification found;
+    trace_errors errors;
+};
+
+identified_robot identify_traced(const traced_robot& traced, const std::string& method) {
+    identification found = identify(traced.robot, traced.filter, rows_of(traced.robot, traced.fitted, traced.filter),
+                                    method_of(method));
+    if (found.result.chi.size() == 0) {
+        throw data_error(found.result.message);
+    }
+    trace_errors all{found.result.residual,
+                     errors(rows_of(traced.robot, traced.held_back, traced.filter), found.result.chi)};
+    return {std::move(found), std::move(all)};
+}
+
+json result_json(const identified_robot& identified, const traced_robot& traced, const std::string& method) {
+    json content = to_json(identified.found, method);
+    content["validation"] = to_json(identified.errors.validation, traced.robot);
+    return content;
+}
+
+void write_text(const fs::path& path, const std::string& text) {
+    std::ofstream file(path, std::ios::binary);
+    file << text;
+    file.close();
+    if (!file) {
+        throw input_error({path.string(), 0, ""}, "cannot be written");
+    }
+}
+
+/// What a reviewer reads: the change of the generated code.
+std::string model_difference(const loaded_robot& before, const loaded_robot& after) {
+    std::vector<file_change> changes;
+    for (const generator::rendered_file& wanted : after.generated.files) {
+        file_change change{wanted.name, std::nullopt, wanted.text};
+        for (const generator::rendered_file& present : before.generated.files) {
+            if (present.name == wanted.name) {
+                change.before = present.text;
+            }
+        }
+        if (change.before != change.after) {
+            changes.push_back(std::move(change));
+        }
+    }
+    return unified_diff(changes);
+}
+
+/// The description with the effects found, its model generated, built and identified.
+struct rebuilt_robot {
+    explicit rebuilt_robot(traced_robot robot, const std::string& method)
+        : traced(std::move(robot)), identified(identify_traced(traced, method)) {}
+
+    traced_robot traced;
+    identified_robot identified;
+};
+
+std::unique_ptr<const rebuilt_robot> rebuild(const refine_options& options, const traced_robot& before,
+                                             const std::vector<trace_step>& steps) {
+    const std::string file = write_refined_description(options.robot, before, steps, options.folder);
+    return std::make_unique<const rebuilt_robot>(with_description(before, file), options.method);
+}
+
+bool worse(const error_summary& after, const error_summary& before) {
+    return after.relative_error > before.relative_error * (1.0 + 1e-9);
+}
+
+json refine_json(const refine_outcome& outcome, const refine_options& options) {
+    json content = {{"robot", outcome.before.robot.generated.robot},
+                    {"verdict", verdict_of(outcome.trace)},
+                    {"method", options.method},
+                    {"before", to_json(outcome.errors_before, outcome.before.robot)},
+                    {"after", to_json(outcome.errors_after, outcome.before.robot)}};
+    content.update(to_json(outcome.trace, outcome.before));
+    return content;
+}
+
+void print_outcome(const refine_outcome& outcome, const refine_options& options) {
+    fmt::print("{}: {}\n", outcome.before.robot.generated.robot, verdict_of(outcome.trace));
+    for (const trace_step& step : outcome.trace.steps) {
+        fmt::print("  {}: p {:.2g}, explains {:.0f} %\n", describe(step.place, outcome.before.robot), step.p_value,
+                   100.0 * step.explained_fraction);
+        for (const effect_parameter& parameter : step.parameters) {
+            fmt::print("    {:<6} {:>12.5g} std {:.2g} {}\n", parameter.name, parameter.value, parameter.std,
+                       parameter.unit);
+        }
+        for (const effect_place& other : step.confusable_with) {
+            fmt::print("    this data cannot tell it from {}\n", describe(other, outcome.before.robot));
+        }
+    }
+    fmt::print("fitted, before and after:\n");
+    print(outcome.errors_before.identification, outcome.before.robot);
+    print(outcome.errors_after.identification, outcome.before.robot);
+    fmt::print("held back, before and after:\n");
+    print(outcome.errors_before.validation, outcome.before.robot);
+    print(outcome.errors_after.validation, outcome.before.robot);
+    fmt::print("in {}: robot.yaml, model/, model.diff, before.json, after.json, refine.json, report.md\n",
+               options.folder);
+}
+
+int run(const refine_options& options) {
+    const traced_robot before = load_traced_robot(options);
+    const identified_robot first = identify_traced(before, options.method);
+    trace_input input = before.input();
+    input.most_effects = options.most_effects;
+    input.progress = [](const std::string& line) { fmt::print(stderr, "  {}\n", line); };
+    effect_trace trace = trace_effects(input);
+    fs::create_directories(options.folder);
+    std::unique_ptr<const rebuilt_robot> last = rebuild(options, before, trace.steps);
+    while (!trace.steps.empty() && worse(last->identified.errors.validation, first.errors.validation)) {
+        trace.steps.pop_back();
+        last = rebuild(options, before, trace.steps);
+    }
+    const refine_outcome outcome{before, last->traced, first.errors, last->identified.errors, std::move(trace)};
+    const fs::path folder = options.folder;
+    generator::write_model(last->traced.robot.generated.files, (folder / "model").string());
+    write_text(folder / "model.diff", model_difference(before.robot, last->traced.robot));
+    write_json((folder / "before.json").string(), result_json(first, before, options.method));
+    write_json((folder / "after.json").string(), result_json(last->identified, last->traced, options.method));
+    write_text(folder / "report.md", to_markdown(outcome));
+    const json content = refine_json(outcome, options);
+    write_json((folder / "refine.json").string(), content);
+    write_json(options.json_file, content);
+    if (prints_text(options.json_file)) {
+        print_outcome(outcome, options);
+    }
+    return exit_done;
+}
+
+}  // namespace
+
+void add_refine_command(CLI::App& app, action& chosen) {
+    const auto options = std::make_shared<refine_options>();
+    CLI::App* command = app.add_subcommand(
+        "refine", "finds what the model lacks, adds it to the description, regenerates, rebuilds, identifies again");
+    add_trace_options(*command, *options);
+    command->add_option("-o,--output", options->folder, "folder for the new description, code, results and report")
+        ->required();
+    command->add_option("--method", options->method, "how the errors before and after are identified: ols, wls or irls")
+        ->check(CLI::IsMember({"ols", "wls", "irls"}));
+    command->add_option("--most", options->most_effects, "effects added at the most")->check(CLI::Range(0, 100));
+    command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+}
+
+}  // namespace idim::cli

@@ -1,0 +1,121 @@
+#include "trace_json.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace idim::cli {
+
+namespace {
+
+std::vector<std::string> names_of(const std::vector<int>& joints, const loaded_robot& robot) {
+    std::vector<std::string> names;
+    for (const int j : joints) {
+        names.push_back(joint_name(robot, j));
+    }
+    return names;
+}
+
+json place_json(const effect_place& place, const loaded_robot& robot) {
+    json content = {{"effect", place.effect}, {"joints", names_of(place.joints, robot)}};
+    if (place.from) {
+        content["from"] = names_of({*place.from}, robot);
+    }
+    return content;
+}
+
+json places_json(const std::vector<effect_place>& places, const loaded_robot& robot) {
+    json list = json::array();
+    for (const effect_place& place : places) {
+        list.push_back(place_json(place, robot));
+    }
+    return list;
+}
+
+json step_json(const trace_step& step, const loaded_robot& robot) {
+    json content = place_json(step.place, robot);
+    json parameters = json::object();
+    for (const effect_parameter& parameter : step.parameters) {
+        parameters[parameter.name] = {{"value", finite(parameter.value)},
+                                      {"std", finite(parameter.std)},
+                                      {"unit", parameter.unit}};
+    }
+    content["parameters"] = parameters;
+    content["p_value"] = step.p_value;
+    content["explained_fraction"] = step.explained_fraction;
+    content["confusable_with"] = places_json(step.confusable_with, robot);
+    content["before"] = to_json(step.before, robot);
+    content["after"] = to_json(step.after, robot);
+    return content;
+}
+
+json candidates_json(const effect_trace& trace, const loaded_robot& robot) {
+    json list = json::array();
+    for (const trace_candidate& candidate : trace.candidates) {
+        json entry = place_json(candidate.place, robot);
+        entry["p_value"] = candidate.p_value;
+        entry["explained_fraction"] = candidate.explained_fraction;
+        entry["objection"] = candidate.objection.empty() ? json(nullptr) : json(candidate.objection);
+        list.push_back(entry);
+    }
+    return list;
+}
+
+json unexplained_json(const effect_trace& trace, const loaded_robot& robot) {
+    json list = json::array();
+    for (const unexplained_structure& structure : trace.unexplained) {
+        list.push_back({{"joint", joint_name(robot, structure.joint)},
+                        {"signals", structure.signals},
+                        {"explained_fraction", structure.explained_fraction},
+                        {"proposed", nullptr}});
+    }
+    return list;
+}
+
+json floor_json(const noise_floor& floor) {
+    if (floor.rms.size() == 0) {
+        return nullptr;
+    }
+    return {{"from", floor.from}, {"rms", std::vector<double>(floor.rms.data(), floor.rms.data() + floor.rms.size())}};
+}
+
+}  // namespace
+
+json to_json(const trace_errors& errors, const loaded_robot& robot) {
+    return {{"identification", to_json(errors.identification, robot)}, {"validation", to_json(errors.validation, robot)}};
+}
+
+std::string verdict_of(const effect_trace& trace) {
+    if (!trace.steps.empty()) {
+        return "effects_added";
+    }
+    return trace.unexplained.empty() ? "no_missing_effect" : "unexplained_residual";
+}
+
+std::string describe(const effect_place& place, const loaded_robot& robot) {
+    std::string text = fmt::format("{} at {}", place.effect, fmt::join(names_of(place.joints, robot), ", "));
+    if (place.from) {
+        text += " from " + joint_name(robot, *place.from);
+    }
+    return text;
+}
+
+json to_json(const effect_trace& trace, const traced_robot& traced) {
+    const loaded_robot& robot = traced.robot;
+    json steps = json::array();
+    for (const trace_step& step : trace.steps) {
+        steps.push_back(step_json(step, robot));
+    }
+    return {{"noise_floor", floor_json(trace.floor)},
+            {"band", traced.filter.band(traced.fitted.front().rate)},
+            {"filter", to_json(traced.filter)},
+            {"held_back", traced.held_back_note.empty() ? json(nullptr) : json(traced.held_back_note)},
+            {"alignment", trace.alignment},
+            {"tests", trace.tests},
+            {"steps", steps},
+            {"candidates", candidates_json(trace, robot)},
+            {"not_identifiable", places_json(trace.not_identifiable, robot)},
+            {"unsupported", places_json(trace.needless, robot)},
+            {"unexplained", unexplained_json(trace, robot)}};
+}
+
+}  // namespace idim::cli

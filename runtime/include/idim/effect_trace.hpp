@@ -1,0 +1,111 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "idim/effect_interface.h"
+#include "idim/estimate.hpp"
+#include "idim/filtered_samples.hpp"
+#include "idim/model_interface.h"
+
+namespace idim {
+
+/// An effect at one place of the robot.
+struct effect_place {
+    std::string effect;       ///< as in the catalogue
+    std::vector<int> joints;  ///< where it acts
+    std::optional<int> from;  ///< joint whose signals drive it, if another
+
+    bool operator==(const effect_place& other) const {
+        return effect == other.effect && joints == other.joints && from == other.from;
+    }
+};
+
+/// A coefficient of an effect as found.
+struct effect_parameter {
+    std::string name;
+    std::string unit;
+    double value = 0.0;
+    double std = 0.0;      ///< robust to the autocorrelation of the residual
+    bool is_shape = false; ///< enters the description as a shape value
+};
+
+/// Errors on the logs that were fitted and on those held back.
+struct trace_errors {
+    error_summary identification;
+    error_summary validation;
+};
+
+/// An effect that was added, and why.
+struct trace_step {
+    effect_place place;
+    std::vector<effect_parameter> parameters;
+    double p_value = 1.0;             ///< partial F on effective rows, corrected for everything tried
+    double explained_fraction = 0.0;  ///< of its joints' residual variance beyond the noise floor, on data held back
+    std::vector<effect_place> confusable_with;
+    error_summary before;  ///< on the data held back
+    error_summary after;
+};
+
+/// A candidate that was tried at the end, most likely first.
+struct trace_candidate {
+    effect_place place;
+    double p_value = 1.0;
+    double explained_fraction = 0.0;
+    std::string objection;  ///< why it is not in the model
+};
+
+/// Dependence of the residual on signals that no known effect fits.
+struct unexplained_structure {
+    int joint = 0;
+    std::vector<std::string> signals;  ///< "q2", "qd1", "t" ...
+    double explained_fraction = 0.0;
+};
+
+/// Deviation of the noise of each joint's rows, and where it was taken from; empty where it cannot be known.
+struct noise_floor {
+    std::string from;
+    Eigen::VectorXd rms;
+};
+
+struct effect_trace {
+    trace_errors before;
+    trace_errors after;
+    noise_floor floor;
+    std::vector<trace_step> steps;
+    std::vector<trace_candidate> candidates;
+    std::vector<effect_place> not_identifiable;  ///< within the span of the model: no residual can show them
+    std::vector<effect_place> needless;          ///< declared, but the data does not support them
+    std::vector<unexplained_structure> unexplained;
+    double alignment = 0.0;  ///< torque behind the motion by this part of a sample, taken off [s]
+    double tests = 0.0;      ///< candidates and shapes tried in the last round
+};
+
+/// What the tracer starts from.
+struct trace_input {
+    const idim_model_interface* model = nullptr;
+    std::vector<filtered_samples> fitted;
+    std::vector<filtered_samples> held_back;
+    filter_choice filter;
+    const idim_effect_table* catalogue = nullptr;
+    std::vector<effect_place> declared;  ///< effects the description has already
+    int most_effects = 12;               ///< 0: only look
+    std::function<void(const std::string&)> progress;  ///< one line for the user; may be empty
+};
+
+/// Finds what the model lacks: looks at the residual of weighted least squares, tries every effect of the catalogue at every
+/// joint, adds the one that gains most where it is significant (partial F on effective rows, corrected for everything
+/// tried), gains on data it was not fitted to, away from reversals too, and is plausible; then again, terms that others made
+/// needless taken out, until nothing passes. METHODS.md has the equations; the tests of acceptance stand in effect_tracer.
+/// Throws data_error where the rows are too few.
+effect_trace trace_effects(const trace_input& input);
+
+/// Cuts the last `share` of a log off to be held back, `gap` seconds left out between: where no log was given for
+/// validation.
+std::pair<filtered_samples, filtered_samples> hold_back(const filtered_samples& samples, double share, double gap);
+
+}  // namespace idim

@@ -1,0 +1,100 @@
+#include "candidate_list.hpp"
+
+#include <algorithm>
+
+#include "expression_candidate.hpp"
+#include "model_candidates.hpp"
+
+namespace idim {
+
+namespace {
+
+/// Where the linearisation of an effect on the model's own torque starts: a quarter of a sample's delay, a compliance whose
+/// twist is a thousandth of the smallest range of motion at the largest torque.
+constexpr double first_delay = 0.25;
+constexpr double first_twist = 1e-3;
+
+double first_compliance(const trace_input& input, int joint) {
+    double range = 0.0;
+    double torque = 0.0;
+    for (const filtered_samples& log : input.fitted) {
+        range = std::max(range, log.q.col(joint).maxCoeff() - log.q.col(joint).minCoeff());
+        torque = std::max(torque, log.tau.col(joint).cwiseAbs().maxCoeff());
+    }
+    return torque > 0.0 ? first_twist * range / torque : 0.0;
+}
+
+void add_at_joints(const trace_input& input, const idim_effect& effect, const Eigen::VectorXd& chi,
+                   std::vector<candidate_pointer>& list) {
+    const idim_model_interface& model = *input.model;
+    for (int j = 0; j < model.dof; ++j) {
+        switch (effect.kind) {
+            case IDIM_EFFECT_DELAY:
+                list.push_back(delay_candidate(j, first_delay / input.fitted.front().rate));
+                break;
+            case IDIM_EFFECT_GAIN:
+                list.push_back(gain_candidate(j));
+                break;
+            case IDIM_EFFECT_ELASTICITY:
+                if (const double compliance = first_compliance(input, j); compliance > 0.0) {
+                    list.push_back(elasticity_candidate(model, chi, j, compliance));
+                }
+                break;
+            case IDIM_EFFECT_PAYLOAD:
+                list.push_back(payload_candidate(model, j));
+                break;
+            case IDIM_EFFECT_TILT:
+                break;
+            default:
+                list.push_back(expression_candidate(effect, j, -1));
+        }
+    }
+}
+
+void add_at_pairs(const trace_input& input, const idim_effect& effect, std::vector<candidate_pointer>& list) {
+    for (int j = 0; j < input.model->dof; ++j) {
+        for (int other = effect.acts_on_both != 0 ? j + 1 : 0; other < input.model->dof; ++other) {
+            if (other != j) {
+                list.push_back(expression_candidate(effect, j, other));
+            }
+        }
+    }
+}
+
+bool has_signals(const trace_input& input, const idim_effect& effect) {
+    if ((effect.needs & IDIM_NEEDS_TEMPERATURE) == 0) {
+        return true;
+    }
+    const auto recorded = [](const filtered_samples& log) { return log.temp.size() > 0; };
+    return std::all_of(input.fitted.begin(), input.fitted.end(), recorded) &&
+           std::all_of(input.held_back.begin(), input.held_back.end(), recorded);
+}
+
+}  // namespace
+
+std::vector<candidate_pointer> list_candidates(const trace_input& input, const std::vector<effect_term>& terms,
+                                               const Eigen::VectorXd& chi) {
+    std::vector<candidate_pointer> list;
+    for (int e = 0; e < input.catalogue->count; ++e) {
+        const idim_effect& effect = input.catalogue->effects[e];
+        if (!has_signals(input, effect)) {
+            continue;
+        }
+        if (effect.scope == IDIM_EFFECT_PAIR) {
+            add_at_pairs(input, effect, list);
+        } else {
+            add_at_joints(input, effect, chi, list);
+        }
+    }
+    const auto taken = [&](const candidate_pointer& candidate) {
+        const effect_place place{candidate->effect, candidate->joints, candidate->from};
+        return std::find(input.declared.begin(), input.declared.end(), place) != input.declared.end() ||
+               std::any_of(terms.begin(), terms.end(), [&](const effect_term& term) {
+                   return place == effect_place{term.candidate->effect, term.candidate->joints, term.candidate->from};
+               });
+    };
+    list.erase(std::remove_if(list.begin(), list.end(), taken), list.end());
+    return list;
+}
+
+}  // namespace idim

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "trace_fit.hpp"
+
+namespace idim {
+
+/// What a candidate changes on one log that it was not fitted to: decrease of the weighted squared residual, and the
+/// deviation of that sum, from blocks longer than the residual's correlation.
+struct held_back_gain {
+    double all = 0.0;
+    double all_deviation = 0.0;
+    double moving = 0.0;  ///< away from reversals
+    double moving_deviation = 0.0;
+};
+
+/// What the data says of one candidate at its best shape.
+struct effect_evidence {
+    effect_term term;
+    Eigen::VectorXd coefficient;      ///< linear coefficients from the fitted logs
+    double gain = 0.0;                ///< decrease of the weighted squared residual of the fitted logs
+    double correlation_length = 1.0;  ///< of the residual that the candidate leaves [rows]
+    double freedom = 1.0;             ///< effective rows less parameters
+    double f_statistic = 0.0;         ///< partial F on effective rows
+    double p_value = 1.0;             ///< of that F, not corrected for the candidates tried
+    double outside = 0.0;             ///< share of its columns outside the span of the model
+    int shapes_tried = 1;
+    std::vector<held_back_gain> held_back;  ///< per log held back
+    double score = 0.0;  ///< decrease of the weighted squared residual of all logs, less the price of the parameters
+    double explained_fraction = 0.0;  ///< of the residual variance of its joints on logs held back
+    std::vector<double> residual_share_moving;
+
+    /// Sum over logs in deviations of it.
+    double z_all() const;
+    double z_moving() const;
+};
+
+/// Partial F of the candidate on as many rows as are independent: the rows of its joints over the integrated
+/// autocorrelation time of the residual it leaves.
+effect_evidence test_on_fitted(const trace_fit& fit, const effect_term& term, bool quick);
+
+/// Adds what the logs held back say.
+void test_on_held_back(const trace_fit& fit, effect_evidence& evidence);
+
+/// Loss of residuals `first` less that of `second` on all logs (or those held back), in deviations of it: positive if `second` fits better
+/// [Vuong 1989, on blocks longer than the correlation].
+double loss_difference(const trace_fit& fit, const log_series& first, const log_series& second,
+                       double correlation_length, bool held_back_only = false);
+
+/// Residual of every log once the candidate was added.
+log_series residual_with(const trace_fit& fit, const effect_evidence& evidence);
+
+/// p of at least one such value among `tests` independent ones.
+double corrected(double p_value, double tests);
+
+/// Integrated autocorrelation time of residuals of one joint over the fitted logs [rows].
+double correlation_length(const trace_fit& fit, const log_series& residual, int joint);
+
+}  // namespace idim

@@ -1,0 +1,311 @@
+#include "idim/effect_trace.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+
+#include "candidate_list.hpp"
+#include "effect_tracer.hpp"
+#include "idim/input_error.hpp"
+#include "model_candidates.hpp"
+#include "noise_floor.hpp"
+#include "term_deviations.hpp"
+
+namespace idim {
+
+namespace {
+
+constexpr double first_alignment = 0.5;  ///< of a sample: where its linearisation starts
+constexpr int linearisations = 3;
+constexpr double implausible_z = 2.0;
+
+error_summary errors_of(const trace_fit& fit, bool held_back) {
+    error_summary summary;
+    double all_left = 0.0;
+    double all_torque = 0.0;
+    for (std::size_t j = 0; j < fit.residual().front().size(); ++j) {
+        double left = 0.0;
+        double torque = 0.0;
+        double rows = 0.0;
+        for (std::size_t l = 0; l < fit.logs().size(); ++l) {
+            if (fit.logs()[l].held_back == held_back) {
+                left += fit.residual()[l][j].squaredNorm();
+                torque += fit.logs()[l].rows.Y[j].squaredNorm();
+                rows += static_cast<double>(fit.residual()[l][j].size());
+            }
+        }
+        summary.joints.push_back(
+            {rows > 0.0 ? std::sqrt(left / rows) : 0.0, torque > 0.0 ? std::sqrt(left / torque) : 0.0});
+        all_left += left;
+        all_torque += torque;
+    }
+    summary.relative_error = all_torque > 0.0 ? std::sqrt(all_left / all_torque) : 0.0;
+    return summary;
+}
+
+/// Share of the residual variance beyond the noise floor that an effect removes from its joints' rows held back.
+double explained_fraction(const trace_fit& before, const trace_fit& after, const std::vector<int>& touched,
+                          const noise_floor& floor) {
+    double removed = 0.0;
+    double there = 0.0;
+    for (const int j : touched) {
+        const auto joint = static_cast<std::size_t>(j);
+        for (std::size_t l = 0; l < before.logs().size(); ++l) {
+            if (!before.logs()[l].held_back) {
+                continue;
+            }
+            const double weight = 1.0 / (before.noise().moving[j] * before.noise().moving[j]);
+            const double first = weight * before.residual()[l][joint].squaredNorm();
+            removed += first - weight * after.residual()[l][joint].squaredNorm();
+            there += first;
+            if (floor.rms.size() > 0) {
+                const double noise = floor.rms[j] * floor.rms[j] * static_cast<double>(before.residual()[l][joint].size());
+                there -= weight * std::min(noise, before.residual()[l][joint].squaredNorm());
+            }
+        }
+    }
+    return there > 0.0 ? std::clamp(removed / there, -1.0, 1.0) : 0.0;
+}
+
+/// Joints whose residual an effect changes most: those it is reported at.
+const std::vector<int>& joints_of(const effect_candidate& candidate) {
+    return candidate.joints;
+}
+
+/// Smallest values of the base parameters that make sense: those of effects' coefficients, by name.
+Eigen::VectorXd least_values(const trace_input& input) {
+    const idim_model_interface& model = *input.model;
+    Eigen::VectorXd least = Eigen::VectorXd::Constant(model.n_base, -std::numeric_limits<double>::infinity());
+    for (int e = 0; e < input.catalogue->count; ++e) {
+        const idim_effect& effect = input.catalogue->effects[e];
+        for (int c = 0; c < effect.n_linear; ++c) {
+            const std::string stem = effect.linear_names[c];
+            for (int k = 0; k < model.n_base && effect.linear_min[c] == 0.0; ++k) {
+                const std::string name = model.parameter_names[k];
+                const bool same = name.size() > stem.size() && name.compare(0, stem.size(), stem) == 0 &&
+                                  std::isdigit(static_cast<unsigned char>(name[stem.size()])) != 0;
+                least[k] = same ? 0.0 : least[k];
+            }
+        }
+    }
+    return least;
+}
+
+class tracer {
+  public:
+    explicit tracer(const trace_input& input) : input_(input) {
+        for (const filtered_samples& samples : input.fitted) {
+            logs_.push_back(make_traced_log(*input.model, samples, input.filter, false));
+        }
+        for (const filtered_samples& samples : input.held_back) {
+            logs_.push_back(make_traced_log(*input.model, samples, input.filter, true));
+        }
+        result_.floor = floor_from_spectrum(logs_);
+        least_ = least_values(input);
+    }
+
+    effect_trace run() {
+        trace_fit fit = fit_with_own_noise(logs_, {});
+        result_.before = {errors_of(fit, false), errors_of(fit, true)};
+        fit = aligned(std::move(fit));
+        for (int step = 0; step < input_.most_effects; ++step) {
+            std::optional<trace_fit> next = with_one_more(fit);
+            if (!next) {
+                break;
+            }
+            fit = std::move(*next);
+        }
+        if (input_.most_effects == 0) {
+            look(fit);
+        }
+        result_.after = {errors_of(fit, false), errors_of(fit, true)};
+        fill_parameters(fit);
+        return std::move(result_);
+    }
+
+  private:
+    void say(const std::string& line) const {
+        if (input_.progress) {
+            input_.progress(line);
+        }
+    }
+
+    void use_torques_of(const trace_fit& fit) {
+        const Eigen::VectorXd chi = fit.chi();
+        for (traced_log& log : logs_) {
+            update_torques(*input_.model, chi, log);
+        }
+    }
+
+    /// Takes a common lateness of all torques by less than a sample off, as a term of its own that is not reported.
+    trace_fit aligned(trace_fit fit) {
+        use_torques_of(fit);
+        const double period = 1.0 / logs_.front().samples.rate;
+        double at = first_alignment * period;
+        for (int pass = 0; pass < linearisations; ++pass) {
+            const candidate_pointer candidate = alignment_candidate(input_.model->dof, at);
+            const trace_fit with = fit_with_own_noise(logs_, {{candidate, Eigen::VectorXd()}}, &fit.noise());
+            const double found = with.coefficients(0)[0];
+            if (!(std::abs(found) <= period) || std::abs(found) < 1e-3 * period) {
+                return fit;
+            }
+            at = found;
+            result_.alignment = found;
+        }
+        fixed_ = 1;
+        use_torques_of(fit);
+        return fit_with_own_noise(logs_, {{alignment_candidate(input_.model->dof, at), Eigen::VectorXd()}}, &fit.noise());
+    }
+
+    effect_survey look(const trace_fit& fit) {
+        use_torques_of(fit);
+        effect_survey all = survey(fit, list_candidates(input_, fit.terms(), fit.chi()));
+        result_.tests = all.tests;
+        result_.not_identifiable = all.within_span;
+        result_.candidates.clear();
+        for (const tried_candidate& tried : all.candidates) {
+            const effect_candidate& candidate = *tried.evidence.term.candidate;
+            result_.candidates.push_back({{candidate.effect, candidate.joints, candidate.from},
+                                          tried.p_value,
+                                          tried.evidence.explained_fraction,
+                                          tried.objection});
+        }
+        return all;
+    }
+
+    /// The fit with the best candidate that passes, everything fitted again and needless terms taken out; none if there is
+    /// no such candidate, or the fit is no better for it.
+    std::optional<trace_fit> with_one_more(const trace_fit& fit) {
+        const effect_survey all = look(fit);
+        for (std::size_t i = 0; i < all.candidates.size() && all.candidates[i].objection.empty(); ++i) {
+            std::vector<effect_term> terms = fit.terms();
+            terms.push_back(all.candidates[i].evidence.term);
+            trace_fit with = settled(fit_with_own_noise(logs_, terms, &fit.noise()));
+            if (errors_of(with, true).relative_error > errors_of(fit, true).relative_error ||
+                makes_implausible(fit, with)) {
+                continue;
+            }
+            record(fit, with, all, i);
+            return pruned(std::move(with));
+        }
+        return std::nullopt;
+    }
+
+    /// Whether a coefficient that cannot be negative, such as a friction's, has become so beyond its uncertainty.
+    bool makes_implausible(const trace_fit& before, const trace_fit& after) const {
+        const double length = correlation_length(after, after.residual(), after.terms().back().candidate->touched.front());
+        for (Eigen::Index k = 0; k < least_.size(); ++k) {
+            const double deviation = std::sqrt(length) * after.white_deviation(k);
+            const double value = after.chi()[k];
+            if (value < least_[k] - implausible_z * deviation && value < before.chi()[k]) {
+                return true;
+            }
+        }
+        for (std::size_t i = static_cast<std::size_t>(fixed_); i < after.terms().size(); ++i) {
+            const std::vector<linear_bound>& linear = after.terms()[i].candidate->linear;
+            for (std::size_t c = 0; c < linear.size(); ++c) {
+                if (after.coefficients(i)[static_cast<Eigen::Index>(c)] < linear[c].min) {
+                    return true;
+                }
+            }
+        }
+        return false;
+    }
+
+    /// Shapes searched and models linearised again around what was found.
+    trace_fit settled(trace_fit fit) {
+        for (int pass = 0; pass < linearisations; ++pass) {
+            std::vector<effect_term> terms = fit.terms();
+            bool moved = false;
+            for (std::size_t i = static_cast<std::size_t>(fixed_); i < terms.size(); ++i) {
+                if (const candidate_pointer again = terms[i].candidate->relinearised(fit.coefficients(i))) {
+                    terms[i].candidate = again;
+                    moved = true;
+                }
+            }
+            if (!moved) {
+                break;
+            }
+            use_torques_of(fit);
+            fit = fit_with_own_noise(logs_, terms, &fit.noise());
+        }
+        return with_refined_shapes(fit);
+    }
+
+    trace_fit pruned(trace_fit fit) {
+        while (const std::optional<std::size_t> needless = needless_term(fit, static_cast<std::size_t>(fixed_))) {
+            std::vector<effect_term> terms = fit.terms();
+            say(fmt::format("{} at joint {} has become needless", terms[*needless].candidate->effect,
+                            terms[*needless].candidate->joints.front() + 1));
+            terms.erase(terms.begin() + static_cast<std::ptrdiff_t>(*needless));
+            result_.steps.erase(result_.steps.begin() + static_cast<std::ptrdiff_t>(*needless) - fixed_);
+            fit = settled(fit_with_own_noise(logs_, terms, &fit.noise()));
+        }
+        return fit;
+    }
+
+    void record(const trace_fit& before, const trace_fit& after, const effect_survey& all, std::size_t chosen) {
+        const tried_candidate& tried = all.candidates[chosen];
+        const effect_candidate& candidate = *tried.evidence.term.candidate;
+        trace_step step;
+        step.place = {candidate.effect, candidate.joints, candidate.from};
+        step.p_value = tried.p_value;
+        step.explained_fraction = explained_fraction(before, after, joints_of(candidate), result_.floor);
+        step.confusable_with = confusable_with(before, all, chosen);
+        step.before = errors_of(before, true);
+        step.after = errors_of(after, true);
+        say(fmt::format("{} at joint {}: p {:.2g}, explains {:.0f} % on data held back, {:.2f} -> {:.2f} %",
+                        candidate.effect, fmt::join(ordinals(candidate.joints), ", "), step.p_value,
+                        100.0 * step.explained_fraction, 100.0 * step.before.relative_error,
+                        100.0 * step.after.relative_error));
+        result_.steps.push_back(std::move(step));
+    }
+
+    static std::vector<int> ordinals(std::vector<int> joints) {
+        for (int& j : joints) {
+            ++j;
+        }
+        return joints;
+    }
+
+    void fill_parameters(const trace_fit& fit) {
+        const std::vector<term_values> values = values_with_deviations(fit);
+        for (std::size_t s = 0; s < result_.steps.size(); ++s) {
+            const std::size_t i = s + static_cast<std::size_t>(fixed_);
+            const effect_candidate& candidate = *fit.terms()[i].candidate;
+            const auto m = static_cast<Eigen::Index>(candidate.linear.size());
+            for (Eigen::Index c = 0; c < values[i].value.size(); ++c) {
+                const bool linear = c < m;
+                const auto k = static_cast<std::size_t>(linear ? c : c - m);
+                const auto [value, deviation] =
+                    linear ? candidate.declared(values[i].value[c], values[i].deviation[c])
+                           : std::pair(values[i].value[c], values[i].deviation[c]);
+                result_.steps[s].parameters.push_back(
+                    {linear ? candidate.linear[k].name : candidate.shape[k].name,
+                     linear ? candidate.linear[k].unit : candidate.shape[k].unit, value, deviation,
+                     !linear || candidate.role == column_role::shape});
+            }
+        }
+    }
+
+    const trace_input& input_;
+    std::vector<traced_log> logs_;
+    effect_trace result_;
+    Eigen::VectorXd least_;  ///< smallest value of each base parameter that makes sense
+    int fixed_ = 0;  ///< terms in front that are no effects
+};
+
+}  // namespace
+
+effect_trace trace_effects(const trace_input& input) {
+    if (input.fitted.empty() || input.held_back.empty()) {
+        throw std::invalid_argument("trace_effects: needs logs to fit and logs held back");
+    }
+    return tracer(input).run();
+}
+
+}  // namespace idim

@@ -1,0 +1,205 @@
+#include "effect_tracer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "parallel_for.hpp"
+#include "shape_search.hpp"
+
+namespace idim {
+
+namespace {
+
+constexpr double significance = 0.01;          ///< corrected for everything tried
+constexpr double promising = 0.2;              ///< corrected p of the quick columns, to look at the exact ones
+constexpr double least_held_back_z = 2.33;     ///< one-sided 1 %
+constexpr double least_moving_z = 2.0;         ///< one-sided 2.3 %, away from reversals
+constexpr double least_explained = 0.015;      ///< of the residual variance on data not fitted to
+constexpr double indistinguishable_z = 2.0;    ///< two-sided 5 %
+constexpr double look_alike = 0.8;             ///< correlation of what two candidates predict outside the span
+constexpr double needed_z = 1.0;               ///< a term that gains less on data not fitted to has become needless
+
+/// Torque of the effect at one joint over the fitted logs must not exceed what the joint has at all.
+bool is_plausible(const trace_fit& fit, const effect_evidence& evidence) {
+    const effect_candidate& candidate = *evidence.term.candidate;
+    for (const int j : candidate.touched) {
+        double effect = 0.0;
+        double all = 0.0;
+        for (std::size_t l = 0; l < fit.logs().size(); ++l) {
+            if (fit.logs()[l].held_back) {
+                continue;
+            }
+            const auto m = static_cast<Eigen::Index>(candidate.linear.size());
+            const Eigen::Index place = candidate.per_log ? m * static_cast<Eigen::Index>(l) : 0;
+            effect += (candidate.rows(fit.logs()[l], j, evidence.term.shape) * evidence.coefficient.segment(place, m))
+                          .squaredNorm();
+            all += fit.logs()[l].rows.Y[static_cast<std::size_t>(j)].squaredNorm();
+        }
+        if (effect > all) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// Squared residual of a log held back, all joints, not weighted [(N*m)^2].
+double squared_error(const std::vector<Eigen::VectorXd>& residual) {
+    double sum = 0.0;
+    for (const Eigen::VectorXd& joint : residual) {
+        sum += joint.squaredNorm();
+    }
+    return sum;
+}
+
+bool raises_an_error(const trace_fit& fit, const effect_evidence& evidence) {
+    const log_series left = residual_with(fit, evidence);
+    for (std::size_t l = 0; l < left.size(); ++l) {
+        if (fit.logs()[l].held_back && squared_error(left[l]) > squared_error(fit.residual()[l])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+std::string objection_to(const trace_fit& fit, const tried_candidate& tried) {
+    const effect_evidence& evidence = tried.evidence;
+    if (tried.p_value >= significance) {
+        return "not significant";
+    }
+    for (const held_back_gain& log : evidence.held_back) {
+        if (log.all <= 0.0) {
+            return "makes a log it was not fitted to worse";
+        }
+    }
+    if (evidence.z_all() < least_held_back_z) {
+        return "no sure gain on data it was not fitted to";
+    }
+    if (evidence.z_moving() < least_moving_z) {
+        return "explains rows at reversals only";
+    }
+    if (evidence.explained_fraction < least_explained) {
+        return "too small to be told from what every model leaves";
+    }
+    if (raises_an_error(fit, evidence)) {
+        return "raises the error of a log it was not fitted to";
+    }
+    if (!is_plausible(fit, evidence)) {
+        return "larger than the torque of its joint";
+    }
+    return {};
+}
+
+bool ranks_before(const tried_candidate& a, const tried_candidate& b) {
+    if (a.objection.empty() != b.objection.empty()) {
+        return a.objection.empty();
+    }
+    if (a.objection.empty()) {
+        return a.evidence.score > b.evidence.score;
+    }
+    if (a.p_value != b.p_value) {
+        return a.p_value < b.p_value;
+    }
+    return a.evidence.f_statistic > b.evidence.f_statistic;
+}
+
+effect_place place_of(const effect_candidate& candidate) {
+    return {candidate.effect, candidate.joints, candidate.from};
+}
+
+/// Weighted change of the residual of the fitted logs.
+Eigen::VectorXd prediction_of(const trace_fit& fit, const log_series& left) {
+    std::vector<double> values;
+    for (std::size_t l = 0; l < left.size(); ++l) {
+        for (std::size_t j = 0; j < left[l].size() && !fit.logs()[l].held_back; ++j) {
+            const Eigen::VectorXd change = (fit.residual()[l][j] - left[l][j]).cwiseProduct(fit.weight()[l][j]);
+            values.insert(values.end(), change.begin(), change.end());
+        }
+    }
+    return Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+trace_fit without(const trace_fit& fit, std::size_t term) {
+    std::vector<effect_term> terms = fit.terms();
+    terms.erase(terms.begin() + static_cast<std::ptrdiff_t>(term));
+    return trace_fit(fit.logs(), std::move(terms), fit.noise());
+}
+
+}  // namespace
+
+effect_survey survey(const trace_fit& fit, const std::vector<candidate_pointer>& candidates) {
+    effect_survey result;
+    std::vector<effect_evidence> found(candidates.size());
+    parallel_for(candidates.size(), [&](std::size_t i) { found[i] = search_shape(fit, candidates[i], promising); });
+    for (const effect_evidence& evidence : found) {
+        result.tests += evidence.shapes_tried;
+    }
+    result.candidates.resize(found.size());
+    parallel_for(found.size(), [&](std::size_t i) {
+        tried_candidate& tried = result.candidates[i];
+        tried.p_value = corrected(found[i].p_value, result.tests);
+        if (tried.p_value < promising) {
+            test_on_held_back(fit, found[i]);
+        }
+        tried.evidence = std::move(found[i]);
+        tried.objection = objection_to(fit, tried);
+    });
+    for (const tried_candidate& tried : result.candidates) {
+        if (tried.evidence.outside > 0.0 && tried.evidence.outside < 1e-5) {
+            result.within_span.push_back(place_of(*tried.evidence.term.candidate));
+        }
+    }
+    std::stable_sort(result.candidates.begin(), result.candidates.end(), ranks_before);
+    return result;
+}
+
+std::vector<effect_place> confusable_with(const trace_fit& fit, const effect_survey& all, std::size_t accepted) {
+    const effect_evidence& best = all.candidates[accepted].evidence;
+    const log_series best_left = residual_with(fit, best);
+    const Eigen::VectorXd best_prediction = prediction_of(fit, best_left);
+    std::vector<effect_place> places;
+    for (std::size_t i = 0; i < all.candidates.size(); ++i) {
+        const tried_candidate& other = all.candidates[i];
+        if (i == accepted || other.evidence.held_back.empty() || other.p_value >= significance) {
+            continue;
+        }
+        const log_series left = residual_with(fit, other.evidence);
+        const Eigen::VectorXd prediction = prediction_of(fit, left);
+        const double norms = prediction.norm() * best_prediction.norm();
+        const bool alike = norms > 0.0 && prediction.dot(best_prediction) > look_alike * norms;
+        if (alike && loss_difference(fit, left, best_left, best.correlation_length) < indistinguishable_z) {
+            places.push_back(place_of(*other.evidence.term.candidate));
+        }
+    }
+    return places;
+}
+
+trace_fit with_refined_shapes(const trace_fit& fit) {
+    std::vector<effect_term> terms = fit.terms();
+    for (int pass = 0; pass < 2; ++pass) {
+        for (std::size_t i = 0; i < terms.size(); ++i) {
+            if (terms[i].shape.size() == 1) {
+                const trace_fit others = without(trace_fit(fit.logs(), terms, fit.noise()), i);
+                const double reach = (pass == 0 ? 0.2 : 0.02) * std::abs(terms[i].shape[0]);
+                terms[i] = refine_shape(others, terms[i], reach).term;
+            }
+        }
+    }
+    return fit_with_own_noise(fit.logs(), terms, &fit.noise());
+}
+
+std::optional<std::size_t> needless_term(const trace_fit& fit, std::size_t first_removable) {
+    std::optional<std::size_t> worst;
+    double least = needed_z;
+    for (std::size_t i = first_removable; i < fit.terms().size(); ++i) {
+        const trace_fit reduced = without(fit, i);
+        const double length = correlation_length(fit, fit.residual(), fit.terms()[i].candidate->touched.front());
+        const double z = loss_difference(fit, reduced.residual(), fit.residual(), length, true);
+        if (z < least) {
+            least = z;
+            worst = i;
+        }
+    }
+    return worst;
+}
+
+}  // namespace idim

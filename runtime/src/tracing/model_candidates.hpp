@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "effect_candidate.hpp"
+#include "idim/model_interface.h"
+
+namespace idim {
+
+/// The torque of joint j measured late by Td: the column is the secant (tau(t - at) - tau(t)) / at of the present
+/// model's torque, its coefficient Td.
+candidate_pointer delay_candidate(int joint, double at);
+
+/// All joints' torque late by the same time, a part of a sample: a drive that holds its command for a period, a logger
+/// that reads torque and position one after the other. A nuisance, no effect.
+candidate_pointer alignment_candidate(int joints, double at);
+
+/// The torque of joint j scaled by 1 + Ke: the column is the present model's torque.
+candidate_pointer gain_candidate(int joint);
+
+/// A transmission of stiffness K = 1 / c at joint j: the link lags its motor by c times the torque that passes. The column
+/// is the secant in c of the rigid links' torques at all joints.
+candidate_pointer elasticity_candidate(const idim_model_interface& model, const Eigen::VectorXd& chi, int joint,
+                                       double at);
+
+/// Ten inertial parameters at the link of joint j from t0 to t1 of a log.
+candidate_pointer payload_candidate(const idim_model_interface& model, int joint);
+
+}  // namespace idim

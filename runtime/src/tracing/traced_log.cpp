@@ -1,0 +1,134 @@
+#include "traced_log.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "idim/effect_trace.hpp"
+#include "idim/zero_phase_filter.hpp"
+
+namespace idim {
+
+namespace {
+
+/// Part of the top speed below which the sign of a speed is not believed, and the rows around such a sample that the
+/// decimation filter smears it over.
+constexpr double slow_share = 0.02;
+constexpr double noise_multiple = 3.0;
+constexpr double smear_rows = 1.5;
+
+/// Deviation of the noise of a speed: what a parabola through five neighbouring samples leaves, per sample.
+double speed_noise(const Eigen::Ref<const Eigen::VectorXd>& qd) {
+    const Eigen::Index n = qd.size() - 3;
+    if (n < 8) {
+        return 0.0;
+    }
+    const Eigen::VectorXd third = qd.tail(n) - 3.0 * qd.segment(2, n) + 3.0 * qd.segment(1, n) - qd.head(n);
+    return std::sqrt(third.squaredNorm() / (20.0 * static_cast<double>(n)));
+}
+
+row_flags reversals_of(const traced_log& log, Eigen::Index joint) {
+    const auto qd = log.samples.qd.col(joint);
+    const double slow = std::max(slow_share * qd.cwiseAbs().maxCoeff(), noise_multiple * speed_noise(qd));
+    const auto reach = static_cast<Eigen::Index>(std::ceil(smear_rows * log.decimation));
+    std::vector<char> slow_sample(static_cast<std::size_t>(qd.size()), 0);
+    for (Eigen::Index k = 0; k < qd.size(); ++k) {
+        const bool crosses = k > 0 && qd[k] * qd[k - 1] <= 0.0;
+        if (std::abs(qd[k]) < slow || crosses) {
+            const Eigen::Index first = std::max<Eigen::Index>(0, k - reach);
+            const Eigen::Index last = std::min<Eigen::Index>(qd.size() - 1, k + reach);
+            std::fill(slow_sample.begin() + first, slow_sample.begin() + last + 1, 1);
+        }
+    }
+    const std::vector<Eigen::Index>& kept = log.rows.kept[static_cast<std::size_t>(joint)];
+    row_flags flags(static_cast<Eigen::Index>(kept.size()));
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+        const auto sample = static_cast<std::size_t>(kept[k] * log.decimation);
+        flags[static_cast<Eigen::Index>(k)] = slow_sample[std::min(sample, slow_sample.size() - 1)] != 0;
+    }
+    return flags;
+}
+
+bool is_rigid(std::string_view name) {
+    constexpr std::array<std::string_view, 10> kinds = {"XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M"};
+    return std::any_of(kinds.begin(), kinds.end(), [&](std::string_view kind) {
+        return name.size() > kind.size() && name.substr(0, kind.size()) == kind &&
+               (std::isdigit(static_cast<unsigned char>(name[kind.size()])) != 0 || name[kind.size()] == '_');
+    });
+}
+
+Eigen::MatrixXd torques_of(const idim_model_interface& model, const Eigen::VectorXd& chi,
+                           const filtered_samples& samples) {
+    const auto count = static_cast<std::size_t>(samples.samples());
+    const idim_samples all = {count,
+                              count,
+                              samples.q.data(),
+                              samples.qd.data(),
+                              samples.qdd.data(),
+                              samples.t.data(),
+                              samples.temp.size() > 0 ? samples.temp.data() : nullptr};
+    Eigen::MatrixXd tau(samples.samples(), model.dof);
+    model.inverse_dynamics_batch(&all, chi.data(), tau.data(), count);
+    return tau;
+}
+
+filtered_samples part_of(const filtered_samples& samples, Eigen::Index first, Eigen::Index count) {
+    filtered_samples part;
+    part.file = samples.file;
+    part.rate = samples.rate;
+    part.t = samples.t.segment(first, count);
+    for (const auto signal : {&filtered_samples::q, &filtered_samples::qd, &filtered_samples::qdd,
+                              &filtered_samples::tau, &filtered_samples::temp}) {
+        if ((samples.*signal).size() > 0) {
+            part.*signal = (samples.*signal).middleRows(first, count);
+        }
+    }
+    return part;
+}
+
+}  // namespace
+
+Eigen::MatrixXd rows_of(const traced_log& log, int joint, const Eigen::MatrixXd& columns) {
+    const Eigen::MatrixXd decimated = decimate(columns, log.decimation);
+    return decimated(log.rows.kept[static_cast<std::size_t>(joint)], Eigen::all);
+}
+
+traced_log make_traced_log(const idim_model_interface& model, filtered_samples samples, const filter_choice& choice,
+                           bool held_back) {
+    traced_log log;
+    observation rows = observe(model, {samples}, choice);
+    log.rows = std::move(rows.blocks.front());
+    log.samples = std::move(samples);
+    log.decimation = choice.decimation;
+    log.held_back = held_back;
+    for (Eigen::Index joint = 0; joint < model.dof; ++joint) {
+        log.reversal.push_back(reversals_of(log, joint));
+    }
+    return log;
+}
+
+void update_torques(const idim_model_interface& model, const Eigen::VectorXd& chi, traced_log& log) {
+    log.tau_model = torques_of(model, chi, log.samples);
+    log.tau_rigid = torques_of(model, rigid_part(model, chi), log.samples);
+}
+
+Eigen::VectorXd rigid_part(const idim_model_interface& model, Eigen::VectorXd chi) {
+    for (int k = 0; k < model.n_base; ++k) {
+        if (!is_rigid(model.parameter_names[k])) {
+            chi[k] = 0.0;
+        }
+    }
+    return chi;
+}
+
+std::pair<filtered_samples, filtered_samples> hold_back(const filtered_samples& samples, double share, double gap) {
+    const Eigen::Index n = samples.samples();
+    const auto held = static_cast<Eigen::Index>(std::floor(share * static_cast<double>(n)));
+    const auto between = static_cast<Eigen::Index>(std::ceil(gap * samples.rate));
+    const Eigen::Index first = std::max<Eigen::Index>(0, n - held - between);
+    return {part_of(samples, 0, first), part_of(samples, n - held, held)};
+}
+
+}  // namespace idim
