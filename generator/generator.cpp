@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "backend/model_manifest.hpp"
+#include "dynamics/effect_terms.hpp"
 #include "emit/content_hash.hpp"
 #include "emit/manifest_file.hpp"
 
@@ -22,6 +23,7 @@ robot_model load(const std::string& robot_file, const std::string& templates) {
     if (model.tree.dof() == 0) {
         throw input_error({robot_file, 0, "joints"}, "expected at least one revolute or prismatic joint");
     }
+    tilt_gravity(model.description.effects, model.effects, model.tree);
     model.parameters = list_parameters(model.tree, model.description.effects, model.effects);
     model.base = find_base_parameters(model.tree, model.parameters);
     return model;
@@ -32,7 +34,7 @@ base_report report(const robot_model& model) {
     result.robot = model.description.name;
     result.notes = model.description.notes;
     for (const base_parameter& base : model.base.parameters) {
-        result.parameters.push_back({base.name, base.unit, base.formula});
+        result.parameters.push_back({base.name, base.unit, base.formula, model.parameters.all[base.standard].per_log});
     }
     for (const std::size_t p : model.base.without_effect) {
         result.without_effect.push_back(model.parameters.all[p].name);
@@ -48,13 +50,14 @@ base_report report(const robot_model& model) {
     return result;
 }
 
-/// Of what the model depends on: the description as read (comments and layout left out), its effects, the version and
-/// what it was made cheap for.
-std::string hash_inputs(const robot_model& model, const std::string& cost) {
-    std::string text = fmt::format("idim {}\ncost {}\n{}", version(), cost, to_string(model.description));
+/// Of what the model depends on: the description as read (comments and layout left out), its effects, what it was made
+/// cheap for, whether it has derivatives, and the version.
+std::string hash_inputs(const robot_model& model, const generation_options& options) {
+    std::string text = fmt::format("idim {}\ncost {}\n{}", version(), options.cost, to_string(model.description));
+    text += options.derivatives ? "derivatives\n" : "";
     for (const effect_description& effect : model.effects) {
         text += fmt::format("effect {} {} {} {}\n", effect.name, static_cast<int>(effect.scope), effect.acts_on_both,
-                            effect.torque.text);
+                            law_of(effect));
         for (const linear_coefficient& coefficient : effect.linear) {
             text += fmt::format("  {} {} {}\n", coefficient.name, coefficient.unit,
                                 coefficient.min ? fmt::format("{}", *coefficient.min) : "free");
@@ -96,11 +99,11 @@ generated_model generate(const std::string& robot_file, const std::string& templ
     result.target = options.target;
     result.base = report(model);
     result.cost = options.cost;
-    result.input_hash = hash_inputs(model, options.cost);
+    result.input_hash = hash_inputs(model, options);
     const cost_target target = cost_target_of(options.cost);
     model_operations counts;
-    const template_context context =
-        build_context(model, {version(), result.input_hash, target}, languages_of(options.target), counts);
+    const template_context context = build_context(model, {version(), result.input_hash, target}, options.derivatives,
+                                                   languages_of(options.target), counts);
     result.joints = context.joints;
     result.operations = table(counts);
     result.files = render(context, templates + "/" + options.target);

@@ -36,6 +36,7 @@ struct operation_table {
 struct generation_options {
     std::string target = "cpp";  ///< one of target_names()
     std::string cost = "ops";    ///< one of cost_target_names(): what the forms of the models are chosen for
+    bool derivatives = false;    ///< of the inverse dynamics by q and qd, as one more function
 };
 
 /// A model of one robot, in memory.

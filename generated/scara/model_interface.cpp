@@ -12,7 +12,7 @@
 #include "regressor.hpp"
 #include "regroup.hpp"
 
-static_assert(IDIM_MODEL_ABI == 3, "this model was generated for another version of the runtime: regenerate it");
+static_assert(IDIM_MODEL_ABI == 4, "this model was generated for another version of the runtime: regenerate it");
 
 namespace model = idim_models::scara;
 
@@ -21,6 +21,9 @@ namespace {
 constexpr std::array<int, model::dof> joint_is_prismatic = { 0, 0,  };
 constexpr std::array<double, model::dof> drive_gain = { 0, 0,  };
 constexpr std::array<double, model::dof> velocity_limit = { 0, 0,  };
+constexpr std::array<double, model::dof> torque_delay = { 0, 0,  };
+constexpr std::array<double, model::dof> joint_stiffness = { 0, 0,  };
+constexpr std::array<int, model::base_parameters> parameter_is_per_log = { 0, 0, 0, 0, 0, 0, 0, 0,  };
 
 void regressor(const double* q, const double* qd, const double* qdd, double, const double*, double* W) {
     model::regressor(q, qd, qdd, W);
@@ -97,6 +100,16 @@ constexpr idim_model_interface interface = {
     regressor_batch,
     inverse_dynamics_batch,
     regroup,
+    0,
+    0,
+    0,
+    nullptr,
+    torque_delay.data(),
+    joint_stiffness.data(),
+    parameter_is_per_log.data(),
+    nullptr,
+    nullptr,
+    nullptr,
 };
 
 }  // namespace

@@ -135,7 +135,8 @@ class body_printer {
         }
         const graph_symbol& symbol = graph_.symbols()[static_cast<std::size_t>(node.symbol)];
         const std::string argument = argument_name(symbol.role);
-        return {symbol.role == symbol_role::time ? argument : spelling_.element(names_, argument, symbol.index)};
+        const bool is_scalar = symbol.role == symbol_role::time || symbol.role == symbol_role::step;
+        return {is_scalar ? argument : spelling_.element(names_, argument, symbol.index)};
     }
 
     printed operand(int id) const {
@@ -226,6 +227,14 @@ std::string argument_name(symbol_role role) {
             return "qdd";
         case symbol_role::torque:
             return "tau";
+        case symbol_role::rigid_torque:
+            return "tau_rigid";
+        case symbol_role::motor:
+            return "motor";
+        case symbol_role::state:
+            return "state";
+        case symbol_role::step:
+            return "dt";
         case symbol_role::sine:
             return "sc";
         case symbol_role::constant:

@@ -12,6 +12,7 @@
 #include "backend/form_choice.hpp"
 #include "backend/function_spelling.hpp"
 #include "dynamics/dynamic_models.hpp"
+#include "graph/derivatives.hpp"
 #include "graph/sum_rewriting.hpp"
 
 namespace idim::generator {
@@ -43,40 +44,73 @@ std::vector<function_plan> plans() {
     return {
         {"regressor",
          "Regressor of the base parameters: tau = W(q, qd, qdd) chi.",
-         {"q", "qd", "qdd", "t", "temp"},
+         {"q", "qd", "qdd", "t", "temp", "state", "tau_rigid", "motor"},
          {"W"},
          regressor_model,
          regressor_forms},
         {"inverse_dynamics",
          "Inverse dynamic model: tau = M(q) qdd + N(q, qd).",
-         {"q", "qd", "qdd", "t", "temp", "chi"},
+         {"q", "qd", "qdd", "t", "temp", "state", "motor", "chi"},
          {"tau"},
          inverse_dynamics_model,
          torque_forms},
         {"mass_matrix",
          "Inertia matrix of the robot with its drives.",
-         {"q", "chi"},
+         {"q", "load_t", "chi"},
          {"M"},
          mass_matrix_model,
          inertia_forms},
         {"bias",
          "Torque at zero acceleration: centrifugal, Coriolis, gravity, friction and other effects.",
-         {"q", "qd", "t", "temp", "chi"},
+         {"q", "qd", "t", "temp", "state", "chi"},
          {"N"},
          bias_model,
          torque_forms},
-        {"gravity", "Torque that holds the rigid links at rest.", {"q", "chi"}, {"G"}, gravity_model, gravity_forms},
+        {"gravity",
+         "Torque that holds the rigid links at rest.",
+         {"q", "load_t", "chi"},
+         {"G"},
+         gravity_model,
+         gravity_forms},
         {"forward_dynamics",
          "Direct dynamic model: qdd = M(q)^-1 (tau - N(q, qd)), by M = L' D L.",
-         {"q", "qd", "tau", "t", "temp", "chi"},
+         {"q", "qd", "tau", "t", "temp", "state", "tau_rigid", "chi"},
          {"qdd", "D"},
          forward_dynamics_model,
          inertia_forms},
     };
 }
 
+/// Functions of robots whose effects need more than the motion.
+std::vector<function_plan> further_plans(const standard_parameters& parameters) {
+    std::vector<function_plan> result;
+    if (parameters.uses_rigid_torque || parameters.has_elastic_joint()) {
+        result.push_back({"rigid_torque",
+                          "Torque of the links and payloads alone.",
+                          {"q", "qd", "qdd", "load_t", "chi"},
+                          {"tau_rigid"},
+                          rigid_torque_model,
+                          torque_forms});
+    }
+    if (!parameters.states.empty()) {
+        result.push_back({"first_states",
+                          "States of effects at the first sample of a motion.",
+                          {"q", "qd", "qdd", "t", "temp", "motor"},
+                          {"start"},
+                          first_states_model,
+                          {}});
+        result.push_back({"next_states",
+                          "States of effects at the sample after this one.",
+                          {"q", "qd", "qdd", "t", "temp", "state", "motor", "dt"},
+                          {"next"},
+                          next_states_model,
+                          {}});
+    }
+    return result;
+}
+
 /// Every argument of every function, by its name.
-std::map<std::string, function_argument> all_arguments(int n, int b, int s) {
+std::map<std::string, function_argument> all_arguments(int n, int b, int s, int states) {
     std::map<std::string, function_argument> result;
     const auto add = [&result](const std::string& name, int size, const std::string& meaning) {
         result[name] = {name, size, name + " " + meaning};
@@ -87,24 +121,40 @@ std::map<std::string, function_argument> all_arguments(int n, int b, int s) {
     add("tau", n, fmt::format("[{}] joint torques or forces, joint side [N*m or N]", n));
     add("t", 0, "time [s]");
     add("temp", n, fmt::format("[{}] joint temperatures [degC]", n));
+    result["load_t"] = {"t", 0, "t time, for what is carried then [s]"};
+    add("state", states, fmt::format("[{}] states of effects, in the order of state_names", states));
+    add("start", states, fmt::format("[{}] states of effects at the first sample", states));
+    add("next", states, fmt::format("[{}] states of effects dt later", states));
+    add("dt", 0, "time between samples [s]");
+    add("tau_rigid", n, fmt::format("[{}] torque of links and payloads alone, as rigid_torque gives it", n));
+    add("motor", 3 * n, fmt::format("[3 x {}] positions, velocities, accelerations of the motors, joint side", n));
     add("chi", b, "[base_parameters] base parameters, in the order of base_parameter_names");
     add("W", n * b, fmt::format("[{} x base_parameters] row-major, row = joint, column = base parameter", n));
     add("M", n * n, fmt::format("[{} x {}] symmetric", n, n));
     add("N", n, fmt::format("[{}] joint torques or forces [N*m or N]", n));
     add("G", n, fmt::format("[{}] joint torques or forces [N*m or N]", n));
     add("D", n, fmt::format("[{}] pivots, all positive if and only if M is positive definite", n));
+    add("dtau_dq", n * n, fmt::format("[{} x {}] row-major, row = torque, column = position", n, n));
+    add("dtau_dqd", n * n, fmt::format("[{} x {}] row-major, row = torque, column = velocity", n, n));
     add("standard", s, "[standard_parameters] standard parameters, in the order of standard_parameter_names");
     return result;
 }
 
 std::vector<function_argument> arguments(const function_plan& plan, const robot_model& model) {
-    const auto known = all_arguments(model.tree.dof(), static_cast<int>(model.base.parameters.size()),
-                                     static_cast<int>(model.parameters.all.size()));
+    const auto known =
+        all_arguments(model.tree.dof(), static_cast<int>(model.base.parameters.size()),
+                      static_cast<int>(model.parameters.all.size()), static_cast<int>(model.parameters.states.size()));
+    const standard_parameters& effects = model.parameters;
+    const std::map<std::string, bool> is_used = {{"t", effects.uses_time},
+                                                 {"load_t", !effects.gates.empty()},
+                                                 {"temp", effects.uses_temperature},
+                                                 {"state", !effects.states.empty()},
+                                                 {"tau_rigid", effects.uses_rigid_torque},
+                                                 {"motor", effects.has_elastic_joint()}};
     std::vector<function_argument> result;
     for (const std::string& name : plan.inputs) {
-        const bool unused =
-            (name == "t" && !model.parameters.uses_time) || (name == "temp" && !model.parameters.uses_temperature);
-        if (!unused) {
+        const auto known_use = is_used.find(name);
+        if (known_use == is_used.end() || known_use->second) {
             result.push_back(known.at(name));
         }
     }
@@ -129,6 +179,23 @@ expression_graph cheapest(const function_plan& plan, const robot_model& model, c
 
 model_function derive(const function_plan& plan, const robot_model& model, cost_target target) {
     return {plan.name, plan.summary, arguments(plan, model), cheapest(plan, model, model.base.selection(), target)};
+}
+
+/// How the torque changes with position and velocity. By accelerations and parameters it is linear: M and W.
+model_function derive_derivatives(const robot_model& model, cost_target target) {
+    const function_plan plan{
+        "inverse_dynamics_derivatives",
+        "Derivatives of inverse_dynamics by q and qd, of sign(x) zero; by qdd they are mass_matrix, by "
+        "chi regressor.",
+        {"q", "qd", "qdd", "t", "temp", "state", "motor", "chi"},
+        {"dtau_dq", "dtau_dqd"},
+        inverse_dynamics_model,
+        torque_forms};
+    model_function torque = derive(plan, model, target);
+    const int n = model.tree.dof();
+    torque.graph =
+        differentiate(torque.graph, {{"dtau_dq", symbol_role::position, n}, {"dtau_dqd", symbol_role::velocity, n}});
+    return torque;
 }
 
 /// chi = standard parameters regrouped: what a-priori values of links become.
@@ -190,6 +257,24 @@ std::vector<std::string> constant_list(const robot_model& model) {
     return result;
 }
 
+/// What the identifiers have to know of effects beside the functions.
+void set_effects(const robot_model& model, template_context& context) {
+    const standard_parameters& parameters = model.parameters;
+    context.uses_rigid_torque = parameters.uses_rigid_torque;
+    context.has_elastic_joint = parameters.has_elastic_joint();
+    context.has_payload = !parameters.gates.empty();
+    for (const effect_memory& state : parameters.states) {
+        context.states.push_back(state.name);
+    }
+    for (std::size_t j = 0; j < context.joints.size(); ++j) {
+        context.joints[j].torque_delay = parameters.drives[j].delay;
+        context.joints[j].stiffness = parameters.drives[j].stiffness;
+    }
+    for (std::size_t k = 0; k < context.base_parameters.size(); ++k) {
+        context.base_parameters[k].per_log = parameters.all[model.base.parameters[k].standard].per_log;
+    }
+}
+
 element_names names_of(const template_context& context) {
     element_names names{context.robot, {}, {}};
     for (const parameter_context& parameter : context.base_parameters) {
@@ -217,8 +302,8 @@ std::vector<std::pair<std::string, double>> named_constants(const robot_model& m
     return result;
 }
 
-template_context build_context(const robot_model& model, const file_origin& origin, const languages& spellings,
-                               model_operations& operations) {
+template_context build_context(const robot_model& model, const file_origin& origin, bool derivatives,
+                               const languages& spellings, model_operations& operations) {
     template_context context;
     context.robot = model.description.name;
     context.version = origin.version;
@@ -236,11 +321,18 @@ template_context build_context(const robot_model& model, const file_origin& orig
     }
     context.uses_time = model.parameters.uses_time;
     context.uses_temperature = model.parameters.uses_temperature;
+    set_effects(model, context);
     std::vector<model_function> functions;
     for (const function_plan& plan : plans()) {
         functions.push_back(derive(plan, model, origin.cost));
     }
     functions.push_back(derive_regrouping(model));
+    for (const function_plan& plan : further_plans(model.parameters)) {
+        functions.push_back(derive(plan, model, origin.cost));
+    }
+    if (derivatives) {
+        functions.push_back(derive_derivatives(model, origin.cost));
+    }
     spelled_models spelled = spell(functions, names_of(context), spellings);
     context.functions = std::move(spelled.functions);
     context.sines = spelled.sines;

@@ -34,9 +34,10 @@ struct file_origin {
     cost_target cost = cost_target::operations;  ///< what the forms of the models were chosen for
 };
 
-/// Derives all models of a robot and spells them for the templates. `operations` receives the counts.
-template_context build_context(const robot_model& model, const file_origin& origin, const languages& spellings,
-                               model_operations& operations);
+/// Derives all models of a robot, with `derivatives` also those of its inverse dynamics, and spells them for the
+/// templates. `operations` receives the counts.
+template_context build_context(const robot_model& model, const file_origin& origin, bool derivatives,
+                               const languages& spellings, model_operations& operations);
 
 /// Counts for the same robot without its effects.
 model_operations count_rigid(const robot_model& model, cost_target target);

@@ -38,7 +38,7 @@ manifest_joint describe(const joint_description& joint, bool is_driven, const ro
 }
 
 manifest_effect describe(const effect_use& use, const effect_description& effect, const robot_description& robot) {
-    manifest_effect result{use.effect, {}, {}, {use.shape.begin(), use.shape.end()}, effect.torque.text};
+    manifest_effect result{use.effect, {}, {}, {use.shape.begin(), use.shape.end()}, law_of(effect)};
     const auto add_names = [&robot](const std::vector<int>& joints, std::vector<std::string>& names) {
         for (const int j : joints) {
             names.push_back(robot.joints[static_cast<std::size_t>(j)].name);

@@ -39,10 +39,13 @@ struct joint_context {
     double drive_gain = 0.0;
     double velocity_limit = 0.0;
     std::string position_unit;
+    double torque_delay = 0.0;  ///< [s]
+    double stiffness = 0.0;     ///< 0 where the transmission is rigid
 };
 
 struct parameter_context {
     std::string name, unit, regroups;
+    bool per_log = false;  ///< every log has a value of its own
 };
 
 /// Everything the templates print: plain data, all decisions made.
@@ -59,6 +62,10 @@ struct template_context {
     std::vector<parameter_context> standard_parameters;
     bool uses_time = false;
     bool uses_temperature = false;
+    bool uses_rigid_torque = false;
+    bool has_elastic_joint = false;
+    bool has_payload = false;
+    std::vector<std::string> states;  ///< of effects: "z2"
     int sines = 0;  ///< cosines and sines that the models share
     std::vector<function_context> functions;
 };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <random>
 
@@ -45,17 +46,60 @@ std::vector<std::size_t> preference_order(const kinematic_tree& tree, const stan
     return order;
 }
 
+/// Signs, exponentials and other functions that are not of angles, with values of their own as in exact arithmetic
+/// (sample_point): an effect that acts in a narrow range only, such as exp(-(qd/0.001)^2), is zero at all states that
+/// are drawn at random.
+class free_functions {
+  public:
+    explicit free_functions(std::uint64_t seed) : random_(seed) {}
+
+    double function(function_kind kind, signed_node argument, double x, double y) {
+        switch (kind) {
+            case function_kind::sin:
+            case function_kind::cos:
+                return double_arithmetic::function(kind, argument, x, y);
+            case function_kind::abs:
+                return sign(argument.id) * x;
+            case function_kind::sign:
+                return sign(argument.id);
+            default:
+                return others_.try_emplace({kind, argument.id}, uniform()).first->second;
+        }
+    }
+    void draw_again() {
+        signs_.clear();
+        others_.clear();
+    }
+
+  private:
+    double uniform() { return static_cast<double>(random_() >> 11) * 0x1p-52 - 1.0; }
+    double sign(int node) { return signs_.try_emplace(node, uniform() < 0.0 ? -1.0 : 1.0).first->second; }
+
+    std::mt19937_64 random_;
+    std::map<int, double> signs_;
+    std::map<std::pair<function_kind, int>, double> others_;
+};
+
+/// The functions themselves.
+struct true_functions {
+    static double function(function_kind kind, signed_node argument, double x, double y) {
+        return double_arithmetic::function(kind, argument, x, y);
+    }
+    void draw_again() {}
+};
+
 /// W_st at random states of order one, rows at least twice the columns.
-Eigen::MatrixXd sample_regressor(const standard_regressor& W, const kinematic_tree& tree) {
+template <class Functions>
+Eigen::MatrixXd sample_regressor(const standard_regressor& W, const kinematic_tree& tree, Functions functions) {
     const std::size_t samples = 2 * (W.columns / W.dof + 1);
     Eigen::MatrixXd sampled(static_cast<Eigen::Index>(samples * W.dof), static_cast<Eigen::Index>(W.columns));
     std::mt19937_64 random(1);
     const auto uniform = [&random] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1.0; };
     graph_evaluator<double> evaluator(W.graph, double_arithmetic::number);
-    double_arithmetic functions;
     const std::vector<graph_symbol>& symbols = W.graph.symbols();
     for (Eigen::Index row = 0; row < sampled.rows();) {
         std::vector<double> values(symbols.size(), 0.0);
+        functions.draw_again();
         for (std::size_t i = 0; i < W.first_virtual(); ++i) {
             const double drawn = symbols[i].role == symbol_role::position ? 3.0 * uniform() : 2.0 * uniform();
             values[i] = symbols[i].role == symbol_role::constant
@@ -108,9 +152,13 @@ parameter_selection base_parameter_set::selection() const {
 base_parameter_set find_base_parameters(const kinematic_tree& tree, const standard_parameters& parameters) {
     const standard_regressor W = build_standard_regressor(tree, parameters);
     const std::vector<std::size_t> preference = preference_order(tree, parameters);
-    const Eigen::MatrixXd sampled = sample_regressor(W, tree);
-    const column_selection by_qr = select_by_qr(sampled, preference, qr_tolerance);
+    Eigen::MatrixXd sampled = sample_regressor(W, tree, true_functions{});
+    column_selection by_qr = select_by_qr(sampled, preference, qr_tolerance);
     regrouping groups(W, tree, parameters, preference);
+    if (by_qr.kept != groups.selection().kept) {
+        sampled = sample_regressor(W, tree, free_functions(2));
+        by_qr = select_by_qr(sampled, preference, qr_tolerance);
+    }
     compare(by_qr, groups.selection());
     const std::vector<regrouped_column> columns = groups.columns(sampled);
     const int modulo_prime_only = groups.prove(columns);

@@ -107,8 +107,9 @@ regrouping::regrouping(const standard_regressor& W, const kinematic_tree& tree, 
       tree_(tree),
       parameters_(parameters),
       evaluator_(W.graph, [](const rational& value) { return to_field(value); }),
-      // Rows for the largest rank there can be, and some to spare: rows of outer joints see few columns.
-      points_(static_cast<int>(W.columns / W.dof) + 3),
+      // Rows for the largest rank there can be, and some to spare: rows of outer joints see few columns. Never so few
+      // that a joint is likely to turn the same way at all of them, where Coulomb friction looks like an offset.
+      points_(std::max(static_cast<int>(W.columns / W.dof) + 3, 16)),
       own_constants_(constant_values(tree)),
       is_kept_(W.columns, false) {
     const std::vector<prime_field> constants = to_field(own_constants_);
@@ -128,6 +129,13 @@ regrouping::regrouping(const standard_regressor& W, const kinematic_tree& tree, 
 }
 
 std::vector<std::size_t> regrouping::without_effects(const std::vector<std::size_t>& columns) const {
+    std::vector<std::size_t> result;
+    std::copy_if(columns.begin(), columns.end(), std::back_inserter(result),
+                 [this](std::size_t p) { return parameters_.all[p].is_of_link(); });
+    return result;
+}
+
+std::vector<std::size_t> regrouping::inertial(const std::vector<std::size_t>& columns) const {
     std::vector<std::size_t> result;
     std::copy_if(columns.begin(), columns.end(), std::back_inserter(result),
                  [this](std::size_t p) { return parameters_.all[p].kind != parameter_kind::effect; });
@@ -198,7 +206,7 @@ regrouping::link_relation regrouping::relation_of(int link) const {
     for (int at = link; at >= 0 && inner.empty();) {
         joints.push_back(at);
         at = tree_.joints[static_cast<std::size_t>(at)].antecedent;
-        inner = without_effects(columns_of(positions(W_.columns), at));
+        inner = inertial(columns_of(positions(W_.columns), at));
     }
     relation.columns.insert(relation.columns.end(), inner.begin(), inner.end());
     relation.groups = constants_of(joints);

@@ -68,6 +68,8 @@ class regrouping {
     std::vector<std::vector<std::size_t>> constants_of(const std::vector<int>& joints) const;
     std::vector<std::size_t> columns_of(const std::vector<std::size_t>& among, int link) const;
     std::vector<std::size_t> without_effects(const std::vector<std::size_t>& columns) const;
+    /// Those of links and of payloads.
+    std::vector<std::size_t> inertial(const std::vector<std::size_t>& columns) const;
 
     /// Random constants, cosine and sine of one angle on the circle.
     std::vector<prime_field> draw_constants(std::uint64_t seed) const;

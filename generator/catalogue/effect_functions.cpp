@@ -90,9 +90,9 @@ std::vector<ex> columns_of(const effect_description& effect, const expression_te
         }
     }
     if (!is_linear) {
-        throw input_error(source.where,
-                          fmt::format("expression \"{}\": expected a torque that is linear in its linear coefficients",
-                                      source.text));
+        throw input_error(
+            source.where,
+            fmt::format("expression \"{}\": expected a torque that is linear in its linear coefficients", source.text));
     }
     return columns;
 }

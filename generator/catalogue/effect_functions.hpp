@@ -9,9 +9,9 @@
 
 namespace idim::generator {
 
-/// The functions of one effect file, for any joint: leaves are the signals of the joint (q[0], qd[0], qdd[0], tau[0]: the
-/// rigid links' torque, t, temp[0]) and of the joint that drives it (q[1] ...), the shapes (chi[0..], behind them the time
-/// step), and the states (standard[0..]).
+/// The functions of one effect file, for any joint: leaves are the signals of the joint (q[0], qd[0], qdd[0], tau[0]:
+/// the rigid links' torque, t, temp[0]) and of the joint that drives it (q[1] ...), the shapes (chi[0..], behind them
+/// the time step), and the states (standard[0..]).
 struct effect_functions {
     std::string symbol;  ///< name in generated code
     effect_description description;

@@ -158,9 +158,30 @@ void read_torque(const yaml_fields& fields, effect_description& effect) {
 
 }  // namespace
 
+std::string law_of(const effect_description& effect) {
+    static const std::map<effect_kind, std::string> kinds = {
+        {effect_kind::delay, "torque(t - Td)"},
+        {effect_kind::gain, "(1 + Ke)*torque"},
+        {effect_kind::elasticity, "q of the link = q of the motor - tau_rigid/K"},
+        {effect_kind::tilt, "gravity turned by tilt_x about x, then by tilt_y about y of the base"},
+        {effect_kind::payload, "ten inertial parameters at the link from t0 to t1"}};
+    if (const auto kind = kinds.find(effect.kind); kind != kinds.end()) {
+        return kind->second;
+    }
+    std::string text = effect.torque.text;
+    if (effect.torque_without_temperature) {
+        text += "; without temperature " + effect.torque_without_temperature->text;
+    }
+    for (const effect_state& state : effect.states) {
+        text += "; " + state.name + " starts at " + state.start.text + ", then " + state.next.text;
+    }
+    return text + (effect.per_log ? "; coefficients of every log" : "");
+}
+
 effect_description read_effect(const std::string& file) {
-    const yaml_fields fields(read_yaml(file), {"effect", "per", "acts_on", "kind", "torque", "torque_without_temperature",
-                                               "per_log", "state", "linear", "shape", "about"});
+    const yaml_fields fields(read_yaml(file),
+                             {"effect", "per", "acts_on", "kind", "torque", "torque_without_temperature", "per_log",
+                              "state", "linear", "shape", "about"});
     effect_description effect;
     effect.file = file;
     const yaml_value name = fields.require("effect", "the name of the effect");

@@ -35,8 +35,8 @@ struct shape_coefficient {
     std::pair<double, double> range;
 };
 
-/// A state of an effect with memory, with its own discrete update along the samples. Expressions of the signals, the shapes,
-/// all states and, in `next`, the step `dt` [s].
+/// A state of an effect with memory, with its own discrete update along the samples. Expressions of the signals, the
+/// shapes, all states and, in `next`, the step `dt` [s].
 struct effect_state {
     std::string name;
     expression_text start;  ///< at the first sample
@@ -60,6 +60,9 @@ struct effect_description {
     std::vector<shape_coefficient> shape;
     std::string about;
 };
+
+/// What an effect does, in one line: its torque and its states, or its kind.
+std::string law_of(const effect_description& effect);
 
 /// Reads one effect file. Throws input_error.
 effect_description read_effect(const std::string& file);

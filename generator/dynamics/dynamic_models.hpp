@@ -15,6 +15,10 @@ struct parameter_selection {
     std::vector<std::string> names;  ///< as they appear in formulas and code, such as ZZ1R
 };
 
+// What effects change beside adding torques: the rows of a joint whose drive has an error of its gain are scaled, in M
+// too; the inertial parameters of links and the torque of gravity are those with the payloads that are on. Where
+// effects depend on the torque of the links alone, the regressor and the direct model take it as a leaf.
+
 /// W [n x b], row-major: tau = W(q, qd, qdd) chi [IV 2]. Output array "W".
 symbolic_model regressor_model(const kinematic_tree& tree, const standard_parameters& parameters,
                                const parameter_selection& selection, const model_form& form);
@@ -22,6 +26,18 @@ symbolic_model regressor_model(const kinematic_tree& tree, const standard_parame
 /// tau [n] = M(q) qdd + N(q, qd) [IV 1], recursive Newton-Euler. Output array "tau".
 symbolic_model inverse_dynamics_model(const kinematic_tree& tree, const standard_parameters& parameters,
                                       const parameter_selection& selection, const model_form& form);
+
+/// The torque [n] of the links and payloads alone, without effects, gain errors and what effects add to base
+/// parameters of their own. Output array "tau_rigid".
+symbolic_model rigid_torque_model(const kinematic_tree& tree, const standard_parameters& parameters,
+                                  const parameter_selection& selection, const model_form& form);
+
+/// The states of effects: at the first sample, output array "start" [s]; at the sample that follows, "next" [s].
+/// Written the same in every form.
+symbolic_model first_states_model(const kinematic_tree& tree, const standard_parameters& parameters,
+                                  const parameter_selection& selection, const model_form& form);
+symbolic_model next_states_model(const kinematic_tree& tree, const standard_parameters& parameters,
+                                 const parameter_selection& selection, const model_form& form);
 
 /// N [n]: the torque at qdd = 0. Output array "N".
 symbolic_model bias_model(const kinematic_tree& tree, const standard_parameters& parameters,
@@ -31,7 +47,8 @@ symbolic_model bias_model(const kinematic_tree& tree, const standard_parameters&
 symbolic_model gravity_model(const kinematic_tree& tree, const standard_parameters& parameters,
                              const parameter_selection& selection, const model_form& form);
 
-/// M [n x n], row-major, symmetric; what effects contribute per unit of qdd included. Output array "M".
+/// M [n x n], row-major, symmetric but for gain errors; what effects contribute per unit of qdd included. Output array
+/// "M".
 symbolic_model mass_matrix_model(const kinematic_tree& tree, const standard_parameters& parameters,
                                  const parameter_selection& selection, const model_form& form);
 

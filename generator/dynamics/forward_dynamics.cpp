@@ -51,6 +51,7 @@ symbolic_model forward_dynamics_model(const kinematic_tree& tree, const standard
     symbolic_model model(tree);
     const parameter_values values(model, parameters, selection);
     declare_signals(model, parameters);
+    declare_rigid_torque(model, parameters);
     const motion_inputs inputs{true, false, true};
     declare_motion(model, tree, inputs);
     model_frame frame(model, tree, values, merging_all(form));
@@ -61,8 +62,9 @@ symbolic_model forward_dynamics_model(const kinematic_tree& tree, const standard
     for (std::size_t i = 0; i < n; ++i) {
         const GiNaC::symbol tau =
             model.declare({fmt::format("tau{}", i + 1), symbol_role::torque, static_cast<int>(i)});
-        const ex effects = without_acceleration(effect_torque(parameters, values, static_cast<int>(i)), tree);
-        x[i] = model.assign(fmt::format("b{}", i + 1), tau - bias[i] - effects);
+        const ex all = parameters.without_elasticity(tree, effect_torque(parameters, values, static_cast<int>(i)));
+        const ex effects = without_acceleration(all, tree);
+        x[i] = model.assign(fmt::format("b{}", i + 1), tau / parameters.drives[i].gain - bias[i] - effects);
     }
     const std::vector<ex> reciprocal = factorise(model, M);
     for (std::size_t k = n; k-- > 0;) {

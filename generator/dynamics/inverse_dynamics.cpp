@@ -43,8 +43,8 @@ class torque_recursion {
     const std::string& label(std::size_t j) const { return frame_.tree.joints[j].label; }
 
     wrench own_wrench(std::size_t j) {
-        const bool by_moments = frame_.form.second_moments || frame_.form.parallel_axes ||
-                                frame_.form.merged != model_form::merging::none;
+        const bool by_moments =
+            frame_.form.second_moments || frame_.form.parallel_axes || frame_.form.merged != model_form::merging::none;
         return by_moments ? wrench_of_body(model_, motion_.of_link(j), frame_.bodies.link[j], label(j))
                           : wrench_of_link(model_, motion_.of_link(j), frame_.values, static_cast<int>(j), label(j));
     }
@@ -122,6 +122,12 @@ std::vector<ex> joint_torques(model_frame& frame, const motion_inputs& inputs) {
 
 namespace {
 
+/// The torque as a drive with an error of its gain records it.
+ex scaled(symbolic_model& model, const ex& gain, const std::string& name, const ex& torque) {
+    return gain.is_equal(1) ? model.assign(name, torque)
+                            : model.assign(name, gain * model.assign(name + "_joint", torque));
+}
+
 symbolic_model torque_model(const kinematic_tree& tree, const standard_parameters& parameters,
                             const parameter_selection& selection, const model_form& form, const motion_inputs& inputs,
                             const std::string& array) {
@@ -131,11 +137,17 @@ symbolic_model torque_model(const kinematic_tree& tree, const standard_parameter
     declare_motion(model, tree, inputs);
     model_frame frame(model, tree, values, form);
     const std::vector<ex> torque = joint_torques(frame, inputs);
+    const bool with_effects = inputs.velocity;
+    for (std::size_t i = 0; i < torque.size() && with_effects && parameters.uses_rigid_torque; ++i) {
+        model.define(parameters.rigid_torque[i], torque[i]);
+    }
     for (int i = 0; i < tree.dof(); ++i) {
         const auto at = static_cast<std::size_t>(i);
-        const ex effects = inputs.velocity ? effect_torque(parameters, values, i) : ex(0);
-        const ex still = inputs.acceleration ? effects : without_acceleration(effects, tree);
-        model.output(array, i, model.assign(array + std::to_string(i + 1), torque[at] + still));
+        const ex effects = with_effects ? effect_torque(parameters, values, i) : ex(0);
+        const ex still =
+            inputs.acceleration ? effects : without_acceleration(parameters.without_elasticity(tree, effects), tree);
+        const std::string name = array + std::to_string(i + 1);
+        model.output(array, i, scaled(model, parameters.drives[at].gain, name, torque[at] + still));
     }
     return model;
 }
@@ -158,6 +170,19 @@ symbolic_model inverse_dynamics_model(const kinematic_tree& tree, const standard
 symbolic_model bias_model(const kinematic_tree& tree, const standard_parameters& parameters,
                           const parameter_selection& selection, const model_form& form) {
     return torque_model(tree, parameters, selection, form, {true, false, true}, "N");
+}
+
+symbolic_model rigid_torque_model(const kinematic_tree& tree, const standard_parameters& parameters,
+                                  const parameter_selection& selection, const model_form& form) {
+    symbolic_model model(tree);
+    const parameter_values values(model, parameters, selection);
+    declare_motion(model, tree, {});
+    model_frame frame(model, tree, values, form);
+    const std::vector<ex> torque = joint_torques(frame, {});
+    for (std::size_t i = 0; i < torque.size(); ++i) {
+        model.output("tau_rigid", static_cast<int>(i), model.assign("rigid" + std::to_string(i + 1), torque[i]));
+    }
+    return model;
 }
 
 symbolic_model gravity_model(const kinematic_tree& tree, const standard_parameters& parameters,

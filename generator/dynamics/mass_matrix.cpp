@@ -67,7 +67,7 @@ void add_joint_inertia(model_frame& frame, std::size_t accelerated, std::vector<
 /// Contribution of the effects to d tau_i / d qdd_j.
 ex effect_inertia(const kinematic_tree& tree, const standard_parameters& parameters, const parameter_values& values,
                   int i, int j) {
-    const ex torque = effect_torque(parameters, values, i);
+    const ex torque = parameters.without_elasticity(tree, effect_torque(parameters, values, i));
     return torque.diff(tree.qdd[static_cast<std::size_t>(j)]);
 }
 
@@ -101,7 +101,11 @@ symbolic_model mass_matrix_model(const kinematic_tree& tree, const standard_para
     const std::size_t n = M.size();
     for (std::size_t i = 0; i < n; ++i) {
         for (std::size_t j = 0; j < n; ++j) {
-            model.output("M", static_cast<int>(i * n + j), M[std::max(i, j)][std::min(i, j)]);
+            const ex element = M[std::max(i, j)][std::min(i, j)];
+            const ex& gain = parameters.drives[i].gain;
+            const std::string name = fmt::format("M{}_{}_recorded", i + 1, j + 1);
+            model.output("M", static_cast<int>(i * n + j),
+                         gain.is_equal(1) ? element : model.assign(name, gain * element));
         }
     }
     return model;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "dynamics/dynamic_models.hpp"
@@ -7,10 +9,11 @@
 
 namespace idim::generator {
 
-/// Values of all standard parameters in a model: a symbol where kept, zero elsewhere.
+/// Values of all standard parameters in a model: a symbol where kept, zero elsewhere; those of links with the payload
+/// they carry at the time.
 class parameter_values {
   public:
-    /// Declares the kept parameters as leaves chi[0..b) of the model.
+    /// Declares the kept parameters as leaves chi[0..b) of the model, and the gates of payloads.
     parameter_values(symbolic_model& model, const standard_parameters& parameters,
                      const parameter_selection& selection);
 
@@ -23,10 +26,20 @@ class parameter_values {
   private:
     const standard_parameters& parameters_;
     std::vector<GiNaC::ex> value_;
+    std::map<std::pair<int, parameter_kind>, GiNaC::ex> loaded_;  ///< of links that carry a payload, with it
 };
 
-/// Declares t and the temperatures if some effect uses them.
+/// 1 while a payload is on, else 0.
+GiNaC::ex gate_of(const standard_parameters& parameters, const standard_parameter& load);
+
+/// Declares t, if there are payloads, and what tells when they are on. Needed before their parameters are used.
+void declare_gates(symbolic_model& model, const standard_parameters& parameters);
+
+/// Declares t, temperatures, states and motions of motors if some effect uses them.
 void declare_signals(symbolic_model& model, const standard_parameters& parameters);
+
+/// The torque of the links and payloads at every coordinate, as further leaves if some effect uses it.
+void declare_rigid_torque(symbolic_model& model, const standard_parameters& parameters);
 
 /// Torque of all effects at a coordinate.
 GiNaC::ex effect_torque(const standard_parameters& parameters, const parameter_values& values, int coordinate);

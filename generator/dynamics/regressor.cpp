@@ -40,7 +40,9 @@ class regressor_builder {
         : tree_(tree), parameters_(parameters), selection_(selection), form_(form), model_(tree) {}
 
     symbolic_model run() {
+        declare_gates(model_, parameters_);
         declare_signals(model_, parameters_);
+        declare_rigid_torque(model_, parameters_);
         declare_motion(model_, tree_, {});
         axes_ = lay_axes(model_, tree_, {});  // those of the links' frames, in which their parameters are given
         const motion_recursion motion(model_, tree_, axes_, {});
@@ -108,9 +110,12 @@ class regressor_builder {
 
     template <class Rows>
     void add_column(std::size_t k, const Rows& rows) {
+        const standard_parameter& parameter = parameters_.all[selection_.kept[k]];
+        const ex gate = parameter.gate >= 0 ? gate_of(parameters_, parameter) : ex(1);
         for (std::size_t row = 0; row < static_cast<std::size_t>(tree_.dof()); ++row) {
+            const ex value = gate * parameters_.drives[row].gain * rows(row);
             model_.output("W", static_cast<int>(row * selection_.kept.size() + k),
-                          model_.assign(fmt::format("W{}_{}", row + 1, selection_.names[k]), rows(row)));
+                          model_.assign(fmt::format("W{}_{}", row + 1, selection_.names[k]), value));
         }
     }
 

@@ -45,6 +45,9 @@ class symbolic_model {
     GiNaC::ex assign(const std::string& name, const GiNaC::ex& body);
     std::array<GiNaC::ex, 3> assign(const std::string& name, const std::array<GiNaC::ex, 3>& body);
 
+    /// `symbol`, of someone else, stands for `body` from here on.
+    void define(const GiNaC::symbol& symbol, const GiNaC::ex& body) { assignments_.push_back({symbol, body.expand()}); }
+
     void output(const std::string& array, int index, const GiNaC::ex& value) {
         outputs_.push_back({array, index, value});
     }

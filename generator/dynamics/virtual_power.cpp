@@ -57,11 +57,25 @@ std::array<ex, 10> inertial_columns(symbolic_model& model, const link_motion& li
             dot(v, link.VP)};
 }
 
+/// Beside the motion everything that effects read is free: states, motions of motors, the torque of the links, and
+/// whether a payload is on.
+void declare_as_free(symbolic_model& model, const standard_parameters& parameters) {
+    if (!parameters.gates.empty()) {
+        model.declare(parameters.time, {"t", symbol_role::time, 0});
+    }
+    for (std::size_t g = 0; g < parameters.gates.size(); ++g) {
+        const GiNaC::symbol& symbol = parameters.gates[g].symbol;
+        model.declare(symbol, {symbol.get_name(), symbol_role::time, static_cast<int>(g) + 1});
+    }
+    declare_signals(model, parameters);
+    declare_rigid_torque(model, parameters);
+}
+
 }  // namespace
 
 symbolic_model virtual_power_model(const kinematic_tree& tree, const standard_parameters& parameters) {
     symbolic_model model(tree);
-    declare_signals(model, parameters);
+    declare_as_free(model, parameters);
     declare_motion(model, tree, {});
     const link_axes axes = lay_axes(model, tree, {});
     std::vector<GiNaC::symbol> v;
@@ -83,6 +97,7 @@ symbolic_model virtual_power_model(const kinematic_tree& tree, const standard_pa
         ex power = 0;
         if (parameter.kind != parameter_kind::effect) {
             power = inertial[static_cast<std::size_t>(parameter.joint)][static_cast<std::size_t>(parameter.kind)];
+            power *= parameter.gate >= 0 ? gate_of(parameters, parameter) : ex(1);
         }
         for (const auto& [coordinate, column] : parameter.columns) {
             power += v[static_cast<std::size_t>(coordinate)] * column;

@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <kainjow/mustache.hpp>
 #include <memory>
 #include <regex>
 #include <set>
 #include <sstream>
 #include <stdexcept>
+#include <tuple>
 
 namespace idim::generator {
 
@@ -157,6 +159,7 @@ std::vector<context_data> parameters(const std::vector<parameter_context>& list)
         entry.set("name", parameter.name);
         entry.set("unit", parameter.unit);
         entry.set("regroups", parameter.regroups);
+        entry.set("per_log", parameter.per_log ? "1" : "0");
     }
     return result;
 }
@@ -170,6 +173,8 @@ std::vector<context_data> joints(const std::vector<joint_context>& list) {
         entry.set("drive_gain", fmt::format("{}", joint.drive_gain));
         entry.set("velocity_limit", fmt::format("{}", joint.velocity_limit));
         entry.set("position_unit", joint.position_unit);
+        entry.set("torque_delay", fmt::format("{}", joint.torque_delay));
+        entry.set("stiffness", fmt::format("{}", joint.stiffness));
     }
     return result;
 }
@@ -234,6 +239,117 @@ std::string upper_case(std::string text) {
     return text;
 }
 
+std::vector<context_data> named(const std::vector<std::string>& names) {
+    std::vector<context_data> result;
+    for (const std::string& name : names) {
+        result.emplace_back().set("name", name);
+    }
+    return result;
+}
+
+/// Arguments that functions take beside the motion, as the code around them spells each; its place is that in the
+/// array of signals of model_interface.h.
+class signal_arguments {
+  public:
+    explicit signal_arguments(const template_context& context)
+        : context_(context),
+          n_(context.joints.size()),
+          motor_(n_ + context.states.size()),
+          rigid_(motor_ + (context.has_elastic_joint ? 3 * n_ : 0)) {}
+
+    using spelling = std::function<std::string(const std::string& name, std::size_t place)>;
+
+    std::string text(const std::string& names, const spelling& spelled) const {
+        const std::vector<std::tuple<std::string, bool, std::size_t>> all = {
+            {"t", context_.uses_time, 0},
+            {"temp", context_.uses_temperature, 0},
+            {"state", !context_.states.empty(), n_},
+            {"tau_rigid", context_.uses_rigid_torque, rigid_},
+            {"motor", context_.has_elastic_joint, motor_}};
+        std::string result;
+        for (const auto& [name, used, place] : all) {
+            const bool wanted = (" " + names + " ").find(" " + name + " ") != std::string::npos;
+            result += used && wanted ? spelled(name, place) + ", " : "";
+        }
+        return result;
+    }
+    std::size_t motor_place() const { return motor_; }
+    std::size_t rigid_place() const { return rigid_; }
+    std::size_t count() const {
+        const std::size_t further = rigid_ + (context_.uses_rigid_torque ? n_ : 0);
+        return further > n_ || context_.uses_temperature ? further : 0;
+    }
+
+  private:
+    const template_context& context_;
+    std::size_t n_, motor_, rigid_;
+};
+
+std::string in_signals(const std::string& name, std::size_t place) {
+    return name == "t" ? name : place == 0 ? "signals" : fmt::format("signals + {}", place);
+}
+
+std::string in_pack(const std::string& name, std::size_t /*place*/) {
+    return "at." + name;
+}
+
+/// What the models read beside the motion.
+void set_signals(context_data& result, const template_context& context) {
+    const signal_arguments arguments(context);
+    const auto without_load = [](const std::string& name, std::size_t place) {
+        return name == "tau_rigid" ? "no_load" : in_signals(name, place);
+    };
+    result.set("time_argument", context.uses_time ? "double t" : "double");
+    result.set("time_or_zero", context.uses_time ? "t" : "0.0");
+    result.set("load_time_argument", context.has_payload ? "double t" : "double");
+    result.set("load_time", context.has_payload ? "t, " : "");
+    result.set("no_load_time", context.has_payload ? "std::numeric_limits<double>::infinity(), " : "");
+    const auto argument = [](bool used) { return used ? "const double* signals" : "const double*"; };
+    result.set("signals_argument", argument(arguments.count() > 0));
+    result.set("state_signals_argument", argument(context.uses_temperature || !context.states.empty()));
+    result.set("torque_signals_argument",
+               argument(context.uses_temperature || !context.states.empty() || context.has_elastic_joint));
+    result.set("first_signals_argument", argument(context.uses_temperature || context.has_elastic_joint));
+    result.set("regressor_signals", arguments.text("t temp state tau_rigid motor", in_signals));
+    result.set("torque_signals", arguments.text("t temp state motor", in_signals));
+    result.set("bias_signals", arguments.text("t temp state", in_signals));
+    result.set("first_signals", arguments.text("t temp motor", in_signals));
+    result.set("start_signals", arguments.text("t temp state tau_rigid", without_load));
+    result.set("packed_regressor_signals", arguments.text("t temp state tau_rigid motor", in_pack));
+    result.set("packed_torque_signals", arguments.text("t temp state motor", in_pack));
+    result.set("n_signals", std::to_string(arguments.count()));
+    result.set("n_states", std::to_string(context.states.size()));
+    result.set("state_place", std::to_string(context.joints.size()));
+    result.set("motor_place", std::to_string(arguments.motor_place()));
+    result.set("rigid_place", std::to_string(arguments.rigid_place()));
+}
+
+/// Parts that only some robots have.
+void set_effect_parts(context_data& result, const template_context& context) {
+    const bool has_states = !context.states.empty();
+    const bool gives_rigid_torque = context.uses_rigid_torque || context.has_elastic_joint;
+    const auto or_null = [](bool there, const char* name) { return there ? name : "nullptr"; };
+    result.set("states", named(context.states));
+    result.know(named({""}).front());
+    result.set_flag("has_states", has_states);
+    result.set_flag("has_elastic_joint", context.has_elastic_joint);
+    result.set_flag("has_payload", context.has_payload);
+    result.set_flag("uses_rigid_torque", context.uses_rigid_torque);
+    result.set_flag("gives_rigid_torque", gives_rigid_torque);
+    const auto is_plain = [](const joint_context& joint) {
+        return joint.torque_delay == 0.0 && joint.stiffness == 0.0;
+    };
+    result.set_flag("has_drive_model", !std::all_of(context.joints.begin(), context.joints.end(), is_plain));
+    result.set("needs_rigid_torque", context.uses_rigid_torque ? "1" : "0");
+    result.set("with_rigid_argument", context.uses_rigid_torque ? ", bool with_rigid_torque" : "");
+    result.set("with_rigid", context.uses_rigid_torque ? ", true" : "");
+    result.set("without_rigid", context.uses_rigid_torque ? ", false" : "");
+    result.set("state_names_table", or_null(has_states, "model::state_names.data()"));
+    result.set("rigid_torque_function", or_null(gives_rigid_torque, "rigid_torque"));
+    result.set("first_states_function", or_null(has_states, "first_states"));
+    result.set("next_states_function", or_null(has_states, "next_states"));
+}
+
 /// What every template may use.
 context_data robot_values(const template_context& context, const std::string& folder) {
     context_data result;
@@ -255,11 +371,8 @@ context_data robot_values(const template_context& context, const std::string& fo
     result.set("joints", joints(context.joints));
     result.set("base_parameters", parameters(context.base_parameters));
     result.set("standard_parameters", parameters(context.standard_parameters));
-    result.set("time_argument", context.uses_time ? "double t" : "double");
-    result.set("temp_argument", context.uses_temperature ? "const double* temp" : "const double*");
-    result.set("signals", std::string(context.uses_time ? "t, " : "") + (context.uses_temperature ? "temp, " : ""));
-    result.set("packed_signals",
-               std::string(context.uses_time ? "at.t, " : "") + (context.uses_temperature ? "at.temp, " : ""));
+    set_signals(result, context);
+    set_effect_parts(result, context);
     result.set_flag("uses_time", context.uses_time);
     result.set_flag("uses_temperature", context.uses_temperature);
     result.set("needs_time", context.uses_time ? "1" : "0");

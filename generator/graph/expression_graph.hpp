@@ -23,6 +23,10 @@ enum class symbol_role {
     velocity,
     acceleration,
     torque,
+    rigid_torque,
+    motor,
+    state,
+    step,
     sine,
     intermediate,
 };

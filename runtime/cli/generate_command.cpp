@@ -109,6 +109,8 @@ void add_generate_command(CLI::App& app, action& chosen) {
                      "what the code is made cheap for: the fewest operations, an x86 processor or a Cortex-M4F")
         ->check(CLI::IsMember(generator::cost_target_names()))
         ->capture_default_str();
+    command->add_flag("--derivatives", options->wanted.derivatives,
+                      "also derivatives of the inverse dynamics by positions and velocities");
     command->add_flag("--check", options->check,
                       "write nothing; exit 1 and a diff where the folder is not what would be written");
     add_json_option(*command, options->json_file);

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "idim/fitted_rows.hpp"
+
 namespace idim::cli {
 
 namespace {
@@ -10,13 +12,16 @@ json parameters_json(const identification& found) {
     json list = json::array();
     const Eigen::VectorXd std = found.result.deviations();
     for (Eigen::Index k = 0; k < found.result.chi.size(); ++k) {
-        const auto& parameter = found.robot.generated.base.parameters[static_cast<std::size_t>(k)];
+        const auto& parameter = parameter_of(found.robot, found.rows, k);
         list.push_back({{"name", parameter.name},
                         {"value", found.result.chi[k]},
                         {"std", std[k]},
                         {"relative_std_percent", finite(relative_percent(std[k], found.result.chi[k]))},
                         {"unit", parameter.unit},
                         {"regroups", parameter.regroups}});
+        if (const int log = column_of(found.rows, static_cast<int>(k)).log; log >= 0) {
+            list.back()["log"] = found.rows.blocks[static_cast<std::size_t>(log)].file;
+        }
     }
     return list;
 }
@@ -33,7 +38,7 @@ json iterations_json(const estimate& result) {
 json essential_json(const identification& found) {
     json kept = json::array();
     for (const int k : found.essential.kept) {
-        kept.push_back({{"name", found.robot.generated.base.parameters[static_cast<std::size_t>(k)].name},
+        kept.push_back({{"name", name_of(found.robot, found.rows, k)},
                         {"value", found.essential.chi[k]},
                         {"std", found.essential.std[k]}});
     }
@@ -43,10 +48,19 @@ json essential_json(const identification& found) {
             {"residual", to_json(found.essential.residual, found.robot)}};
 }
 
+identification with_essential(const loaded_robot& robot, const filter_choice& filter, observation rows,
+                              estimate result) {
+    essential_parameters essential;
+    if (result.chi.size() > 0) {
+        essential = find_essential(rows, result);
+    }
+    return {robot, filter, std::move(rows), std::move(result), std::move(essential)};
+}
+
 json names_json(const identification& found, const std::vector<int>& columns) {
     json names = json::array();
     for (const int k : columns) {
-        names.push_back(found.robot.generated.base.parameters[static_cast<std::size_t>(k)].name);
+        names.push_back(name_of(found.robot, found.rows, k));
     }
     return names;
 }
@@ -57,14 +71,20 @@ double relative_percent(double std, double value) {
     return 100.0 * std / std::abs(value);
 }
 
+identification identify(const loaded_robot& robot, const filter_choice& filter, const std::vector<idim::log>& logs,
+                        least_squares_method method) {
+    std::vector<filtered_samples> samples;
+    for (const idim::log& log : logs) {
+        samples.push_back(filter_log(log, filter));
+    }
+    fitted_rows fit = fit_rows(robot.model(), samples, filter, method);
+    return with_essential(robot, filter, std::move(fit.rows), std::move(fit.result));
+}
+
 identification identify(const loaded_robot& robot, const filter_choice& filter, observation rows,
                         least_squares_method method) {
     estimate result = least_squares(rows, method);
-    essential_parameters essential;
-    if (result.chi.size() > 0) {
-        essential = find_essential(rows, result);
-    }
-    return {robot, filter, std::move(rows), std::move(result), std::move(essential)};
+    return with_essential(robot, filter, std::move(rows), std::move(result));
 }
 
 json to_json(const identification& found, const std::string& method) {

@@ -17,6 +17,10 @@ struct identification {
 identification identify(const loaded_robot& robot, const filter_choice& filter, observation rows,
                         least_squares_method method);
 
+/// The same of logs, whose rows are repeated with the estimate where they depend on it (fit_rows).
+identification identify(const loaded_robot& robot, const filter_choice& filter, const std::vector<idim::log>& logs,
+                        least_squares_method method);
+
 /// JSON of `identify` (FORMATS.md).
 json to_json(const identification& found, const std::string& method);
 

@@ -81,17 +81,29 @@ std::vector<std::string> joints_at_rest(const loaded_robot& robot, const std::ve
     return names;
 }
 
-observation observe_logs(const loaded_robot& robot, const std::vector<idim::log>& logs, const filter_choice& choice) {
+observation observe_logs(const loaded_robot& robot, const std::vector<idim::log>& logs, const filter_choice& choice,
+                         const Eigen::VectorXd& chi) {
     std::vector<filtered_samples> samples;
     for (const idim::log& log : logs) {
         samples.push_back(filter_log(log, choice));
     }
-    return observe(robot.model(), samples, choice);
+    return observe(robot.model(), samples, choice, chi);
+}
+
+const generator::parameter_context& parameter_of(const loaded_robot& robot, const observation& rows,
+                                                 Eigen::Index column) {
+    const int parameter = column_of(rows, static_cast<int>(column)).parameter;
+    return robot.generated.base.parameters[static_cast<std::size_t>(parameter)];
+}
+
+std::string name_of(const loaded_robot& robot, const observation& rows, Eigen::Index column) {
+    const int log = column_of(rows, static_cast<int>(column)).log;
+    return parameter_of(robot, rows, column).name + (log >= 0 ? fmt::format("@{}", log + 1) : "");
 }
 
 void add_filter_options(CLI::App& command, filter_request& request) {
     command.add_option("--cutoff", request.cutoff,
-                       "cut-off of the position filter [Hz]; default: chosen from the data");
+                       "cut-off of the position filter [Hz], 0: no filter; default: chosen from the data");
     command.add_option("--order", request.order,
                        "order of its Butterworth filter, applied forward and backward; default 4");
     command.add_option("--decimation", request.decimation, "keep one row in so many; default: chosen from the data");

@@ -38,8 +38,16 @@ std::vector<idim::log> read_logs(const loaded_robot& robot, const std::vector<st
 /// Joints whose measured position never leaves one value over all logs, by name.
 std::vector<std::string> joints_at_rest(const loaded_robot& robot, const std::vector<idim::log>& logs);
 
-/// Rows of the identification: filtered, decimated.
-observation observe_logs(const loaded_robot& robot, const std::vector<idim::log>& logs, const filter_choice& choice);
+/// Rows of the identification: filtered, decimated; of parameters `chi` where they depend on these.
+observation observe_logs(const loaded_robot& robot, const std::vector<idim::log>& logs, const filter_choice& choice,
+                         const Eigen::VectorXd& chi = {});
+
+/// The base parameter of a column of rows.
+const generator::parameter_context& parameter_of(const loaded_robot& robot, const observation& rows,
+                                                 Eigen::Index column);
+
+/// Its name, with the number of the log behind it where every log has its own: "Ac1@2".
+std::string name_of(const loaded_robot& robot, const observation& rows, Eigen::Index column);
 
 /// Options --cutoff, --order, --decimation.
 void add_filter_options(CLI::App& command, filter_request& request);

@@ -27,10 +27,11 @@ std::string error_table(const refine_outcome& outcome) {
 }
 
 std::string step_text(const trace_step& step, const loaded_robot& robot) {
-    std::string text = fmt::format("- **{}**: p {:.2g}, explains {:.0f} % of the residual variance beyond the noise on "
-                                   "data held back; error there {:.2f} % -> {:.2f} %\n",
-                                   describe(step.place, robot), step.p_value, 100.0 * step.explained_fraction,
-                                   100.0 * step.before.relative_error, 100.0 * step.after.relative_error);
+    std::string text = fmt::format(
+        "- **{}**: p {:.2g}, explains {:.0f} % of the residual variance beyond the noise on "
+        "data held back; error there {:.2f} % -> {:.2f} %\n",
+        describe(step.place, robot), step.p_value, 100.0 * step.explained_fraction, 100.0 * step.before.relative_error,
+        100.0 * step.after.relative_error);
     for (const effect_parameter& parameter : step.parameters) {
         text += fmt::format("  - {} = {:.5g} (std {:.2g}) {}\n", parameter.name, parameter.value, parameter.std,
                             parameter.unit);

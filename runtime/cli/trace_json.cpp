@@ -35,9 +35,8 @@ json step_json(const trace_step& step, const loaded_robot& robot) {
     json content = place_json(step.place, robot);
     json parameters = json::object();
     for (const effect_parameter& parameter : step.parameters) {
-        parameters[parameter.name] = {{"value", finite(parameter.value)},
-                                      {"std", finite(parameter.std)},
-                                      {"unit", parameter.unit}};
+        parameters[parameter.name] = {
+            {"value", finite(parameter.value)}, {"std", finite(parameter.std)}, {"unit", parameter.unit}};
     }
     content["parameters"] = parameters;
     content["p_value"] = step.p_value;
@@ -54,6 +53,11 @@ json candidates_json(const effect_trace& trace, const loaded_robot& robot) {
         json entry = place_json(candidate.place, robot);
         entry["p_value"] = candidate.p_value;
         entry["explained_fraction"] = candidate.explained_fraction;
+        entry["f_statistic"] = finite(candidate.f_statistic);
+        entry["correlation_length"] = candidate.correlation_length;
+        entry["held_back_z"] = finite(candidate.held_back_z);
+        entry["moving_z"] = finite(candidate.moving_z);
+        entry["values"] = candidate.values;
         entry["objection"] = candidate.objection.empty() ? json(nullptr) : json(candidate.objection);
         list.push_back(entry);
     }
@@ -81,7 +85,8 @@ json floor_json(const noise_floor& floor) {
 }  // namespace
 
 json to_json(const trace_errors& errors, const loaded_robot& robot) {
-    return {{"identification", to_json(errors.identification, robot)}, {"validation", to_json(errors.validation, robot)}};
+    return {{"identification", to_json(errors.identification, robot)},
+            {"validation", to_json(errors.validation, robot)}};
 }
 
 std::string verdict_of(const effect_trace& trace) {

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "description/robot_description.hpp"
 #include "idim/input_error.hpp"
 
@@ -11,22 +9,7 @@ namespace idim::cli {
 
 namespace {
 
-constexpr double band_factor = 3.0;
 constexpr double held_back_share = 1.0 / 3.0;
-
-filter_choice choose_trace_filter(const std::vector<idim::log>& logs, const filter_request& request) {
-    filter_choice choice = choose_filter(logs, request);
-    if (!request.decimation) {
-        filter_request wider = request;
-        wider.cutoff = choice.cutoff;
-        wider.decimation = std::max(1, static_cast<int>(std::floor(choice.decimation / band_factor)));
-        const std::string reason = choice.reason;
-        choice = choose_filter(logs, wider);
-        choice.reason = reason + fmt::format("; for tracing {:.0f} times that band: decimation {}", band_factor,
-                                             choice.decimation);
-    }
-    return choice;
-}
 
 /// Effects of a description at coordinates of the model: joints are numbered as the torques are.
 std::vector<effect_place> declared_effects(const std::string& robot_file, const loaded_robot& robot) {
@@ -94,7 +77,7 @@ traced_robot load_traced_robot(const trace_options& options) {
     const std::vector<idim::log> logs = read_logs(robot, options.logs);
     const std::vector<idim::log> validation = read_logs(robot, options.validation);
     check_torque(logs, joints_at_rest(robot, logs), robot.generated.joints.size());
-    const filter_choice filter = choose_trace_filter(logs, options.filter);
+    const filter_choice filter = choose_filter(logs, options.filter);
     traced_robot traced{std::move(robot), load_effects(options.robot), filter, {}, {}, {}, {}};
     for (const idim::log& data : logs) {
         filtered_samples samples = filter_log(data, filter);
@@ -118,8 +101,9 @@ traced_robot load_traced_robot(const trace_options& options) {
 }
 
 traced_robot with_description(const traced_robot& before, const std::string& robot_file) {
-    traced_robot after{load_robot(robot_file), load_effects(robot_file), before.filter, before.fitted, before.held_back,
-                       {}, before.held_back_note};
+    traced_robot after{load_robot(robot_file), load_effects(robot_file), before.filter,
+                       before.fitted,          before.held_back,         {},
+                       before.held_back_note};
     after.declared = declared_effects(robot_file, after.robot);
     return after;
 }

@@ -33,9 +33,7 @@ struct traced_robot {
 /// Options that diagnose and refine share.
 void add_trace_options(CLI::App& command, trace_options& options);
 
-/// Reads, filters, and holds data back where no log was given for validation: the last third of every log. The band is three
-/// times the one that identification chooses, unless a decimation is given: ripple and what happens at reversals lie above
-/// the band of the motion.
+/// Reads, filters, and holds data back where no log was given for validation: the last third of every log.
 traced_robot load_traced_robot(const trace_options& options);
 
 /// The same logs with another description of the same robot.

@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
 #include "identified_parameters.hpp"
+#include "idim/input_error.hpp"
+#include "idim/log_parameters.hpp"
 #include "measured_motion.hpp"
+#include "simulated_loop.hpp"
 
 namespace idim::cli {
 
@@ -12,6 +15,8 @@ struct validate_options {
     std::string result;
     std::vector<std::string> logs;
     filter_request filter;
+    bool simulate = false;
+    loop_request loop;
     std::string json_file;
 };
 
@@ -25,14 +30,65 @@ filter_choice filter_for(const validate_options& options, const identified_param
     return choose_filter(logs, asked);
 }
 
+/// A posteriori simulation of the direct model along the references of the logs. The gains of the simulated law are
+/// those of a robot with these parameters.
+struct simulated_validation {
+    loop_validation result;
+    std::string assumption;
+};
+
+simulated_validation simulate_logs(const validate_options& options, const loaded_robot& robot,
+                                   const std::vector<idim::log>& logs, const filter_choice& filter,
+                                   const Eigen::VectorXd& chi) {
+    const closed_loop loop = simulated_loops_of(robot, options.robot, logs, filter, options.loop, chi).fixed;
+    const loop_experiment experiment{robot.model(), logs, filter};
+    return {validate_in_loop(experiment, loop, observe_steady(experiment, loop), chi), loop.assumption};
+}
+
+json simulation_json(const simulated_validation& simulated, const loaded_robot& robot) {
+    const loop_validation& result = simulated.result;
+    json joints = json::array();
+    for (std::size_t j = 0; j < result.judged.to_measured.size(); ++j) {
+        const motion_distance& distance = result.judged.to_measured[j];
+        joints.push_back({{"joint", robot.generated.joints[j].name},
+                          {"q", finite(distance.q)},
+                          {"qd", finite(distance.qd)},
+                          {"qdd", finite(distance.qdd)}});
+    }
+    return {{"assumption", simulated.assumption.empty() ? json(nullptr) : json(simulated.assumption)},
+            {"torque", to_json(result.simulated, robot)},
+            {"distance_to_measured", joints}};
+}
+
+void print_simulation(const simulated_validation& simulated, const loaded_robot& robot) {
+    const loop_validation& result = simulated.result;
+    fmt::print("  simulated along the references{}{}\n", simulated.assumption.empty() ? "" : "; ",
+               simulated.assumption);
+    for (std::size_t j = 0; j < result.judged.to_measured.size(); ++j) {
+        const motion_distance& distance = result.judged.to_measured[j];
+        fmt::print("    {}: {:.3g} % from the measured position, {:.3g} % velocity, {:.3g} % acceleration\n",
+                   robot.generated.joints[j].name, 100.0 * distance.q, 100.0 * distance.qd, 100.0 * distance.qdd);
+    }
+    fmt::print("    torque along the simulated motion:");
+    print(result.simulated, robot);
+}
+
 int run(const validate_options& options) {
     const loaded_robot robot = load_robot(options.robot);
     const identified_parameters parameters = read_parameters(options.result, robot);
     const std::vector<idim::log> logs = read_logs(robot, options.logs);
     const filter_choice filter = filter_for(options, parameters, logs);
-    const observation all = observe_logs(robot, logs, filter);
-    const error_summary total = errors(all, parameters.chi);
+    const observation all = with_log_columns(robot.model(), observe_logs(robot, logs, filter, parameters.chi));
+    const Eigen::VectorXd chi = with_log_parameters(robot.model(), all, parameters.chi);
+    const error_summary total = errors(all, chi);
     json content = to_json(total, robot);
+    std::optional<simulated_validation> simulated;
+    if (options.simulate) {
+        simulated = simulate_logs(options, robot, logs, filter, parameters.chi);
+        if (!simulated->result.failure.empty()) {
+            throw data_error(simulated->result.failure);
+        }
+    }
     content["robot"] = robot.generated.robot;
     content["filter"] = to_json(filter);
     content["logs"] = json::array();
@@ -42,13 +98,19 @@ int run(const validate_options& options) {
         print(total, robot);
     }
     for (const observation_block& block : all.blocks) {
-        const error_summary one = errors({{block}, all.dof, all.n_base}, parameters.chi);
+        const error_summary one = errors({{block}, all.dof, all.n_base}, chi);
         json entry = {{"log", block.file}};
         entry.update(to_json(one, robot));
         content["logs"].push_back(entry);
         if (prints_text(options.json_file) && all.blocks.size() > 1) {
             fmt::print("  {}:", block.file);
             print(one, robot);
+        }
+    }
+    if (simulated) {
+        content["simulation"] = simulation_json(*simulated, robot);
+        if (prints_text(options.json_file)) {
+            print_simulation(*simulated, robot);
         }
     }
     write_json(options.json_file, content);
@@ -65,6 +127,9 @@ void add_validate_command(CLI::App& app, action& chosen) {
         ->required();
     command->add_option("logs", options->logs, "logs (.csv, .csv.gz)")->required();
     add_filter_options(*command, options->filter);
+    command->add_flag("--simulate", options->simulate,
+                      "simulate the closed loop along the references and compare the motion");
+    add_loop_options(*command, options->loop);
     add_json_option(*command, options->json_file);
     command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }

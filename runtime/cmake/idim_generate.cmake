@@ -1,4 +1,4 @@
-# idim_generate(TARGET <target> ROBOT <robot.yaml | robot.urdf> [LANGUAGE cpp|c] [COST ops|x86|mcu] [HEADERS_ONLY])
+# idim_generate(TARGET <target> ROBOT <robot.yaml | robot.urdf> [LANGUAGE cpp|c] [COST ops|x86|mcu] [DERIVATIVES] [HEADERS_ONLY])
 #
 # Generates the models of a robot at build time, into the build tree, and adds them to a target. <robot> is the file's name without
 # .yaml, <name> the name in the file.
@@ -6,14 +6,18 @@
 #     interface for the identifiers, extern "C" const idim_model_interface* idim_model_<robot>(void), and idim::runtime.
 #   LANGUAGE c: #include "<robot>/<name>.h"; unless HEADERS_ONLY is given, also its sources, in double and single precision.
 #   COST ops (default): the forms of the models are chosen for the fewest operations; x86, mcu: for such a processor.
+#   DERIVATIVES: also <robot>/inverse_dynamics_derivatives, the derivatives of the inverse dynamics by positions and velocities.
 # A change of the robot, of an effect or template, or of the generator regenerates; files that stay the same keep their times.
 #
 # The generator is the target idim::idim, or the program that IDIM_EXECUTABLE names: when cross-compiling, one that runs on the
 # machine that builds.
 
 # Files of a model in this language: those that its manifest.json will list.
-function(_idim_model_files language name result)
+function(_idim_model_files language name derivatives result)
   set(models regressor inverse_dynamics mass_matrix bias gravity forward_dynamics regroup sines)
+  if(derivatives)
+    list(APPEND models inverse_dynamics_derivatives)
+  endif()
   if(language STREQUAL c)
     list(TRANSFORM models APPEND ".c" OUTPUT_VARIABLE in_double)
     list(TRANSFORM models APPEND "_f.c" OUTPUT_VARIABLE in_float)
@@ -22,6 +26,25 @@ function(_idim_model_files language name result)
     list(TRANSFORM models APPEND ".hpp" OUTPUT_VARIABLE headers)
     set(${result} ${headers} batch.hpp functions.hpp model.hpp pack.hpp model_interface.cpp PARENT_SCOPE)
   endif()
+endfunction()
+
+# The name of a robot as the generator reads it from a URDF: a C identifier, with an underscore behind a name that means something
+# in generated code.
+function(_idim_identifier text result)
+  set(language_names
+    alignas alignof and and_eq asm auto bitand bitor bool break case catch char char8_t char16_t char32_t class compl
+    concept const consteval constexpr constinit const_cast continue co_await co_return co_yield decltype default delete do
+    double dynamic_cast else enum explicit export extern false float for friend goto if inline int long mutable namespace
+    new noexcept not not_eq nullptr operator or or_eq private protected public register requires return short signed
+    sizeof static static_assert static_cast reinterpret_cast struct switch template this thread_local throw true try
+    typedef typeid typename union unsigned using virtual void volatile wchar_t while xor xor_eq restrict main std idim
+    assert errno NULL EOF NAN INFINITY linux unix base)
+  string(REGEX REPLACE "[^A-Za-z0-9]" "_" identifier "${text}")
+  string(REGEX REPLACE "^([^A-Za-z])" "r\\1" identifier "${identifier}")
+  if(identifier IN_LIST language_names)
+    string(APPEND identifier "_")
+  endif()
+  set(${result} "${identifier}" PARENT_SCOPE)
 endfunction()
 
 # The name in the file, and the URDF that its line `urdf:` names, if any. Read when the build is configured: once more when the
@@ -40,8 +63,7 @@ function(_idim_read_robot robot_file name urdf_file)
     endif()
     string(REGEX MATCH "\nname:[ \t]*[\"']?([A-Za-z0-9_]*)" found "\n${text}")
   endif()
-  string(REGEX REPLACE "[^A-Za-z0-9]" "_" identifier "${CMAKE_MATCH_1}")
-  string(REGEX REPLACE "^([^A-Za-z])" "r\\1" identifier "${identifier}") # as the generator reads the names of a URDF
+  _idim_identifier("${CMAKE_MATCH_1}" identifier)
   set(${name} "${identifier}" PARENT_SCOPE)
 endfunction()
 
@@ -58,10 +80,10 @@ function(_idim_generator result)
 endfunction()
 
 # One custom target for a robot and language, whatever number of targets use it: it keeps where the files stand and which they are.
-function(_idim_add_model target robot_file language cost folder)
+function(_idim_add_model target robot_file language cost derivatives folder)
   _idim_generator(generator)
   _idim_read_robot("${robot_file}" name urdf_file)
-  _idim_model_files(${language} "${name}" files)
+  _idim_model_files(${language} "${name}" ${derivatives} files)
   list(TRANSFORM files PREPEND "${folder}/")
   get_filename_component(robot_folder "${robot_file}" DIRECTORY)
   get_property(templates GLOBAL PROPERTY IDIM_TEMPLATES)
@@ -71,16 +93,18 @@ function(_idim_add_model target robot_file language cost folder)
     OUTPUT "${folder}/generated.stamp"
     BYPRODUCTS ${files}
     COMMAND "${generator}" generate "${robot_file}" -o "${folder}" --target ${language} --cost ${cost}
+            "$<$<BOOL:${derivatives}>:--derivatives>"
     COMMAND ${CMAKE_COMMAND} -E touch "${folder}/generated.stamp"
     DEPENDS "${generator}" "${robot_file}" ${urdf_file} ${inputs}
     COMMENT "idim: models of ${name}"
-    VERBATIM)
+    COMMAND_EXPAND_LISTS VERBATIM)
   add_custom_target(${target} DEPENDS "${folder}/generated.stamp")
-  set_target_properties(${target} PROPERTIES IDIM_ROBOT "${robot_file}" IDIM_COST ${cost} IDIM_FOLDER "${folder}" IDIM_FILES "${files}")
+  set_target_properties(${target} PROPERTIES IDIM_ROBOT "${robot_file}" IDIM_COST ${cost} IDIM_DERIVATIVES ${derivatives}
+                                             IDIM_FOLDER "${folder}" IDIM_FILES "${files}")
 endfunction()
 
 function(idim_generate)
-  cmake_parse_arguments(ARG "HEADERS_ONLY" "TARGET;ROBOT;LANGUAGE;COST" "" ${ARGN})
+  cmake_parse_arguments(ARG "HEADERS_ONLY;DERIVATIVES" "TARGET;ROBOT;LANGUAGE;COST" "" ${ARGN})
   if(NOT ARG_LANGUAGE)
     set(ARG_LANGUAGE cpp)
   endif()
@@ -90,7 +114,7 @@ function(idim_generate)
   if(NOT ARG_TARGET OR NOT ARG_ROBOT OR NOT ARG_LANGUAGE MATCHES "^(cpp|c)$" OR NOT ARG_COST MATCHES "^(ops|x86|mcu)$"
      OR ARG_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "idim_generate: expected TARGET <target> ROBOT <robot.yaml | robot.urdf> [LANGUAGE cpp|c] "
-                        "[COST ops|x86|mcu] [HEADERS_ONLY], got: ${ARGN}")
+                        "[COST ops|x86|mcu] [DERIVATIVES] [HEADERS_ONLY], got: ${ARGN}")
   endif()
   if(NOT TARGET ${ARG_TARGET})
     message(FATAL_ERROR "idim_generate: no target ${ARG_TARGET}")
@@ -108,7 +132,8 @@ function(idim_generate)
 
   set(models idim_generate_${ARG_LANGUAGE}_${identifier})
   if(NOT TARGET ${models})
-    _idim_add_model(${models} "${robot_file}" ${ARG_LANGUAGE} ${ARG_COST} "${CMAKE_CURRENT_BINARY_DIR}/idim_models/${ARG_LANGUAGE}/${robot}")
+    _idim_add_model(${models} "${robot_file}" ${ARG_LANGUAGE} ${ARG_COST} ${ARG_DERIVATIVES}
+                    "${CMAKE_CURRENT_BINARY_DIR}/idim_models/${ARG_LANGUAGE}/${robot}")
   endif()
   get_target_property(same_robot ${models} IDIM_ROBOT)
   if(NOT same_robot STREQUAL robot_file)
@@ -117,6 +142,10 @@ function(idim_generate)
   get_target_property(same_cost ${models} IDIM_COST)
   if(NOT same_cost STREQUAL ARG_COST)
     message(FATAL_ERROR "idim_generate: ${robot} with COST ${same_cost} and COST ${ARG_COST}, expected one for a robot and language")
+  endif()
+  get_target_property(has_derivatives ${models} IDIM_DERIVATIVES)
+  if(ARG_DERIVATIVES AND NOT has_derivatives)
+    message(FATAL_ERROR "idim_generate: the first call for ${robot} in this language has no DERIVATIVES, give it there")
   endif()
   get_target_property(folder ${models} IDIM_FOLDER)
   get_filename_component(root "${folder}" DIRECTORY)

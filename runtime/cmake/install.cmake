@@ -8,6 +8,10 @@ install(TARGETS idim RUNTIME DESTINATION bin COMPONENT command)
 install(DIRECTORY templates robots DESTINATION share/idim COMPONENT command)
 install(FILES runtime/include/idim/model_interface.h DESTINATION include/idim COMPONENT command)
 install(FILES README.md DESTINATION share/doc/idim COMPONENT command)
+execute_process(COMMAND gzip -9nc ${PROJECT_SOURCE_DIR}/runtime/cli/idim.1 OUTPUT_FILE ${PROJECT_BINARY_DIR}/idim.1.gz
+                COMMAND_ERROR_IS_FATAL ANY)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/runtime/cli/idim.1)
+install(FILES ${PROJECT_BINARY_DIR}/idim.1.gz DESTINATION share/man/man1 COMPONENT command)
 
 # The configuration does not depend on the machine: a build for another one takes the generator from it.
 configure_package_config_file(runtime/cmake/idim-config.cmake.in ${PROJECT_BINARY_DIR}/package/idim-config.cmake

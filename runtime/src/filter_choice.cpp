@@ -151,9 +151,10 @@ double rounded(double frequency) {
 }
 
 void check_request(const filter_request& request, double rate) {
-    if (request.cutoff && !(*request.cutoff > 0.0 && *request.cutoff < 0.5 * rate)) {
+    if (request.cutoff && !(*request.cutoff >= 0.0 && *request.cutoff < 0.5 * rate)) {
         throw input_error({"", 0, "cutoff"},
-                          fmt::format("{:.6g} Hz is not between 0 and half the sampling rate, {:.6g} Hz",
+                          fmt::format("{:.6g} Hz is neither 0 (no filter) nor between 0 and half the sampling rate, "
+                                      "{:.6g} Hz",
                                       *request.cutoff, 0.5 * rate));
     }
     if (request.order && (*request.order < 1 || *request.order > 12)) {
@@ -206,6 +207,17 @@ cutoff_choice choose_cutoff(const std::vector<joint_spectra>& spectra, double ra
     return choice;
 }
 
+/// No position filter, and no decimation unless it is asked for.
+filter_choice unfiltered(const filter_request& request, double rate) {
+    filter_choice choice;
+    choice.decimation = request.decimation.value_or(1);
+    choice.minimum_speed = request.minimum_speed.value_or(default_minimum_speed);
+    choice.reason = fmt::format("position not filtered, as asked for; decimation {}: the rows keep 0 to {:.3g} Hz; {}",
+                                choice.decimation, choice.decimation > 1 ? choice.band(rate) : 0.5 * rate,
+                                speed_reason(choice.minimum_speed));
+    return choice;
+}
+
 }  // namespace
 
 double filter_choice::band(double rate) const {
@@ -232,6 +244,9 @@ filter_choice choose_filter(const std::vector<log>& logs, const filter_request& 
         throw input_error({logs.front().file, 0, "q1"}, "no joint moves, nothing can be identified from this log");
     }
 
+    if (request.cutoff && *request.cutoff == 0.0) {
+        return unfiltered(request, rate);
+    }
     filter_choice choice;
     choice.order = request.order.value_or(default_order);
     cutoff_choice cutoff;

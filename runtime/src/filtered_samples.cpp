@@ -18,6 +18,9 @@ Eigen::Index edge_samples(double cutoff, double rate) {
     return static_cast<Eigen::Index>(std::ceil(5.0 * rate / cutoff - 1e-9));
 }
 
+/// Samples that the differences reach to each side, all that is lost without a filter.
+constexpr Eigen::Index difference_reach = 2;
+
 void check_length(const log& data, const filter_choice& choice, double rate, Eigen::Index edge, Eigen::Index pad) {
     const Eigen::Index needed = std::max(2 * edge + 2, pad + 1);
     if (data.samples() < needed) {
@@ -49,15 +52,17 @@ Eigen::MatrixXd second_derivative(const Eigen::MatrixXd& q, Eigen::Index edge, d
 filtered_samples filter_log(const log& data, const filter_choice& choice) {
     const log uniform = resample_uniform(data);
     const double rate = uniform_rate(uniform.t, {data.file, 0, "t"});
-    if (!(choice.cutoff > 0.0 && choice.cutoff < 0.5 * rate)) {
+    if (!(choice.cutoff >= 0.0 && choice.cutoff < 0.5 * rate)) {
         throw input_error(
             {data.file, 0, "cutoff"},
             fmt::format("{:.6g} Hz is not between 0 and half the sampling rate, {:.6g} Hz", choice.cutoff, 0.5 * rate));
     }
-    const second_order_sections filter = butterworth_lowpass(choice.order, choice.cutoff / (0.5 * rate));
-    const Eigen::Index edge = edge_samples(choice.cutoff, rate);
-    check_length(uniform, choice, rate, edge, padding(filter));
-    const Eigen::MatrixXd q = zero_phase_filter(filter, uniform.q);
+    const bool filters = choice.cutoff > 0.0;
+    const second_order_sections filter =
+        filters ? butterworth_lowpass(choice.order, choice.cutoff / (0.5 * rate)) : second_order_sections();
+    const Eigen::Index edge = filters ? edge_samples(choice.cutoff, rate) : difference_reach;
+    check_length(uniform, choice, rate, edge, filters ? padding(filter) : 0);
+    const Eigen::MatrixXd q = filters ? zero_phase_filter(filter, uniform.q) : uniform.q;
     const Eigen::Index n = q.rows() - 2 * edge;
     const auto inside = [&](const Eigen::MatrixXd& signal) {
         return signal.size() == 0 ? Eigen::MatrixXd() : Eigen::MatrixXd(signal.middleRows(edge, n));

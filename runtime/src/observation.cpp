@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "idim/input_error.hpp"
+#include "idim/recorded_states.hpp"
 #include "idim/zero_phase_filter.hpp"
 #include "uniform_time.hpp"
 
@@ -64,13 +65,14 @@ void evaluate_one_by_one(const idim_model_interface& model, const idim_samples& 
     using strided = Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<>>;
     Eigen::VectorXd row = Eigen::VectorXd::Zero(W.cols());
     for (Eigen::Index k = 0; k < W.rows(); ++k) {
-        const auto at = [&](const double* signal) -> Eigen::VectorXd {
-            return signal == nullptr ? Eigen::VectorXd::Zero(model.dof)
-                                     : Eigen::VectorXd(strided(signal + k, model.dof,
+        const auto values = [&](const double* signal, int count) -> Eigen::VectorXd {
+            return signal == nullptr ? Eigen::VectorXd::Zero(count)
+                                     : Eigen::VectorXd(strided(signal + k, count,
                                                                Eigen::InnerStride<>(static_cast<int>(samples.stride))));
         };
+        const auto at = [&](const double* signal) { return values(signal, model.dof); };
         model.regressor(at(samples.q).data(), at(samples.qd).data(), at(samples.qdd).data(), samples.t[k],
-                        at(samples.temp).data(), row.data());
+                        values(samples.temp, std::max(model.dof, model.n_signals)).data(), row.data());
         W.row(k) = row;
     }
 }
@@ -109,6 +111,23 @@ Eigen::MatrixXd sample_regressor(const idim_model_interface& model, const filter
     return sampled;
 }
 
+/// The same at the states that the torque of each joint belongs to.
+Eigen::MatrixXd recorded_regressor(const idim_model_interface& model, const recorded_states& states, int first,
+                                   int count) {
+    const Eigen::Index b = model.n_base;
+    Eigen::MatrixXd sampled(states.of(first).samples(), count * b);
+    for (int joint = first; joint < first + count;) {
+        int end = joint + 1;
+        while (end < first + count && &states.of(end) == &states.of(joint)) {
+            ++end;
+        }
+        sampled.middleCols((joint - first) * b, (end - joint) * b) =
+            sample_regressor(model, states.of(joint), joint, end - joint);
+        joint = end;
+    }
+    return sampled;
+}
+
 /// Joints whose full-rate rows are held at once: as many as fit in 256 MiB, so that a long log costs repeated
 /// evaluations of the regressor instead of memory.
 int joints_at_once(const idim_model_interface& model, Eigen::Index samples) {
@@ -135,17 +154,18 @@ void check_selection(const row_selection& kept, int joints, Eigen::Index samples
 }
 
 observation_block observe_log(const idim_model_interface& model, const filtered_samples& samples,
-                              const filter_choice& choice, const row_selection& kept) {
+                              const filter_choice& choice, const row_selection& kept, const Eigen::VectorXd& chi) {
     observation_block block;
     block.file = samples.file;
     block.rate = samples.rate / choice.decimation;
     block.t = samples.t(Eigen::seqN(0, decimated_samples(samples, choice), choice.decimation));
     block.kept = kept;
     check_selection(kept, model.dof, block.t.size());
+    const recorded_states states(model, samples, chi);
     const int step = joints_at_once(model, samples.samples());
     for (int first = 0; first < model.dof; first += step) {
         const int count = std::min(step, model.dof - first);
-        const Eigen::MatrixXd W = decimate(sample_regressor(model, samples, first, count), choice.decimation);
+        const Eigen::MatrixXd W = decimate(recorded_regressor(model, states, first, count), choice.decimation);
         for (int joint = 0; joint < count; ++joint) {
             const auto columns = Eigen::seqN(Eigen::Index{joint} * model.n_base, model.n_base);
             block.W.emplace_back(W(kept[first + joint], columns));
@@ -187,6 +207,20 @@ std::vector<Eigen::Index> moving_rows(const Eigen::Ref<const Eigen::VectorXd>& s
     return places;
 }
 
+/// Leaves out rows whose state, as long ago as the torque is late, is not in the log.
+void keep_within_log(const idim_model_interface& model, const filtered_samples& samples, const filter_choice& choice,
+                     row_selection& kept) {
+    for (int joint = 0; joint < model.dof && model.torque_delay != nullptr; ++joint) {
+        const double shift = model.torque_delay[joint] * samples.rate;
+        const auto is_outside = [&](Eigen::Index row) {
+            const double place = static_cast<double>(row * choice.decimation) - shift;
+            return place < 0.0 || place > static_cast<double>(samples.samples() - 1);
+        };
+        std::vector<Eigen::Index>& places = kept[static_cast<std::size_t>(joint)];
+        places.erase(std::remove_if(places.begin(), places.end(), is_outside), places.end());
+    }
+}
+
 void check_common_rate(const std::vector<filtered_samples>& logs) {
     std::vector<named_rate> rates;
     rates.reserve(logs.size());
@@ -222,6 +256,10 @@ double observation::share_left_out() const {
     return samples > 0 ? 1.0 - static_cast<double>(rows()) / static_cast<double>(samples) : 0.0;
 }
 
+observation::column column_of(const observation& rows, int column) {
+    return rows.columns.empty() ? observation::column{column, -1} : rows.columns[static_cast<std::size_t>(column)];
+}
+
 row_selection all_rows(int joints, Eigen::Index samples) {
     std::vector<Eigen::Index> places(static_cast<std::size_t>(samples));
     std::iota(places.begin(), places.end(), Eigen::Index{0});
@@ -245,18 +283,19 @@ row_selection select_rows(const filtered_samples& samples, const filter_choice& 
 }
 
 observation observe(const idim_model_interface& model, const std::vector<filtered_samples>& logs,
-                    const filter_choice& choice) {
+                    const filter_choice& choice, const Eigen::VectorXd& chi) {
     std::vector<row_selection> kept;
     kept.reserve(logs.size());
     for (const filtered_samples& samples : logs) {
         check_log(model, samples, choice);
         kept.push_back(select_rows(samples, choice));
+        keep_within_log(model, samples, choice, kept.back());
     }
-    return observe(model, logs, choice, kept);
+    return observe(model, logs, choice, kept, chi);
 }
 
 observation observe(const idim_model_interface& model, const std::vector<filtered_samples>& logs,
-                    const filter_choice& choice, const std::vector<row_selection>& kept) {
+                    const filter_choice& choice, const std::vector<row_selection>& kept, const Eigen::VectorXd& chi) {
     check_common_rate(logs);
     if (kept.size() != logs.size()) {
         throw std::invalid_argument(fmt::format("observe: rows of {} logs for {}", kept.size(), logs.size()));
@@ -266,7 +305,7 @@ observation observe(const idim_model_interface& model, const std::vector<filtere
     rows.n_base = model.n_base;
     for (std::size_t i = 0; i < logs.size(); ++i) {
         check_log(model, logs[i], choice);
-        rows.blocks.push_back(observe_log(model, logs[i], choice, kept[i]));
+        rows.blocks.push_back(observe_log(model, logs[i], choice, kept[i], chi));
     }
     return rows;
 }

@@ -40,8 +40,7 @@ grid_series on_grid(const observation& rows, const joint_series& series) {
     return spread;
 }
 
-joint_basis basis_of(const observation& rows, const std::vector<double>& joint_weight, const stacked_qr& qr) {
-    const Eigen::MatrixXd inverse = qr.inverse();
+joint_basis basis_of(const observation& rows, const std::vector<double>& joint_weight, const Eigen::MatrixXd& inverse) {
     joint_basis basis(joint_weight.size());
     for (std::size_t j = 0; j < joint_weight.size(); ++j) {
         for (const observation_block& block : rows.blocks) {
@@ -170,15 +169,22 @@ void add_meat(const joint_basis& Q, std::size_t block, const std::vector<autoreg
 
 sandwich robust_covariance(const observation& rows, const std::vector<double>& joint_weight, const stacked_qr& qr,
                            const joint_series& residual) {
-    const joint_basis Q = basis_of(rows, joint_weight, qr);
-    const grid_series series = on_grid(rows, residual);
+    const Eigen::MatrixXd inverse = qr.inverse();
+    return robust_covariance(rows, joint_weight, inverse, inverse, residual);
+}
+
+sandwich robust_covariance(const observation& instruments, const std::vector<double>& joint_weight,
+                           const Eigen::MatrixXd& instrument_inverse, const Eigen::MatrixXd& to_parameters,
+                           const joint_series& residual) {
+    const joint_basis Q = basis_of(instruments, joint_weight, instrument_inverse);
+    const grid_series series = on_grid(instruments, residual);
     const std::vector<autoregression> models = noise_models(Q, series);
     const Eigen::MatrixXd root = innovation_root(models, series);
-    Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(rows.n_base, rows.n_base);
-    for (std::size_t i = 0; i < rows.blocks.size(); ++i) {
+    Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(instruments.n_base, instruments.n_base);
+    for (std::size_t i = 0; i < instruments.blocks.size(); ++i) {
         add_meat(Q, i, models, root, meat);
     }
-    const Eigen::MatrixXd half = qr.inverse() * root_of(meat.selfadjointView<Eigen::Lower>());
+    const Eigen::MatrixXd half = to_parameters * root_of(meat.selfadjointView<Eigen::Lower>());
     sandwich result;
     result.covariance = half * half.transpose();
     for (std::size_t j = 0; j < models.size(); ++j) {

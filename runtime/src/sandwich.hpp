@@ -34,4 +34,12 @@ struct sandwich {
 sandwich robust_covariance(const observation& rows, const std::vector<double>& joint_weight, const stacked_qr& qr,
                            const joint_series& residual);
 
+/// The same for the estimate that zeroes V' residual, V the columns of `instruments` weighted joint by joint: with
+/// Q = V `instrument_inverse` orthonormal its error is `to_parameters` Q' rho. For the instrumental variable
+/// `instrument_inverse` is R_V^-1 and `to_parameters` (Q_V' W)^-1, and with a white rho of one variance
+/// C = sigma^2 (V'W)^-1 V'V (W'V)^-1 [Soderstrom and Stoica 1989, System Identification, section 8.2].
+sandwich robust_covariance(const observation& instruments, const std::vector<double>& joint_weight,
+                           const Eigen::MatrixXd& instrument_inverse, const Eigen::MatrixXd& to_parameters,
+                           const joint_series& residual);
+
 }  // namespace idim

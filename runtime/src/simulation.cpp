@@ -37,9 +37,22 @@ class plant {
     plant(const idim_model_interface& model, const Eigen::VectorXd& chi, const Eigen::VectorXd& q)
         : model_(model),
           chi_(chi),
-          temperature_(Eigen::VectorXd::Constant(model.dof, 20.0)),
+          signals_(Eigen::VectorXd::Zero(std::max(model.dof, model.n_signals))),
           q_(q),
-          qd_(Eigen::VectorXd::Zero(model.dof)) {}
+          qd_(Eigen::VectorXd::Zero(model.dof)),
+          qdd_(Eigen::VectorXd::Zero(model.dof)) {
+        signals_.head(model.dof).setConstant(20.0);  // degC
+    }
+
+    /// States of effects as a motion starts.
+    void start(double t) {
+        if (model_.n_states > 0) {
+            Eigen::VectorXd first(model_.n_states);
+            set_motor();
+            model_.first_states(q_.data(), qd_.data(), qdd_.data(), t, signals_.data(), first.data());
+            signals_.segment(model_.dof, model_.n_states) = first;
+        }
+    }
 
     const Eigen::VectorXd& q() const { return q_; }
     const Eigen::VectorXd& qd() const { return qd_; }
@@ -48,7 +61,13 @@ class plant {
                                  const Eigen::VectorXd& tau) const {
         Eigen::VectorXd qdd(model_.dof);
         const int joint =
-            model_.forward_dynamics(q.data(), qd.data(), tau.data(), t, temperature_.data(), chi_.data(), qdd.data());
+            model_.forward_dynamics(q.data(), qd.data(), tau.data(), t, signals_.data(), chi_.data(), qdd.data());
+        if (joint == IDIM_NOT_CONVERGED) {
+            throw data_error(
+                fmt::format("simulation at t = {:.4f} s: no accelerations give the torque; effects of the "
+                            "torque of the links are too strong",
+                            t));
+        }
         if (joint != 0) {
             throw data_error(
                 fmt::format("simulation at t = {:.4f} s: the inertia matrix is not positive definite at joint {}; the "
@@ -69,9 +88,29 @@ class plant {
         q_ += h / 6.0 * (qd_ + 2.0 * v2 + 2.0 * v3 + v4);
         qd_ += h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
         check(t + h);
+        qdd_ = a1;
+        advance(t, h);
     }
 
   private:
+    void advance(double t, double h) {
+        if (model_.n_states > 0) {
+            Eigen::VectorXd next(model_.n_states);
+            set_motor();
+            model_.next_states(q_.data(), qd_.data(), qdd_.data(), t, signals_.data(), h, next.data());
+            signals_.segment(model_.dof, model_.n_states) = next;
+        }
+    }
+
+    /// The simulated transmissions are rigid: the motors move with the links.
+    void set_motor() {
+        const Eigen::Index n = model_.dof;
+        const Eigen::Index first = n + model_.n_states;
+        if (signals_.size() >= first + 3 * n && model_.joint_stiffness != nullptr) {
+            signals_.segment(first, 3 * n) << q_, qd_, qdd_;
+        }
+    }
+
     void check(double t) const {
         constexpr double fastest = 1e4;  // rad/s or m/s: no robot moves like that
         for (int j = 0; j < model_.dof; ++j) {
@@ -86,8 +125,8 @@ class plant {
 
     const idim_model_interface& model_;
     const Eigen::VectorXd& chi_;
-    Eigen::VectorXd temperature_;
-    Eigen::VectorXd q_, qd_;
+    Eigen::VectorXd signals_;  ///< as model_interface.h orders them
+    Eigen::VectorXd q_, qd_, qdd_;
 };
 
 /// Reference position at a time, linear between its samples.
@@ -126,6 +165,7 @@ simulated_motion simulate(const idim_model_interface& model, const Eigen::Vector
     gaussian random(noise.seed);
     Eigen::VectorXd held;  // torque of the period that ends
     plant robot(model, chi, reference_at(reference, start));
+    robot.start(start);
     for (Eigen::Index k = 0; k < samples; ++k) {
         const double t = start + static_cast<double>(k) * period;
         const Eigen::VectorXd qr = reference_at(reference, t);

@@ -16,6 +16,24 @@ struct motion_state {
     double t = 0.0;
 };
 
+/// The state as the signals of a model: effects in the states in which a motion begins, motors with
+/// their links.
+Eigen::VectorXd signals_of(const idim_model_interface& model, const motion_state& s) {
+    const Eigen::Index n = model.dof;
+    Eigen::VectorXd signals = Eigen::VectorXd::Zero(std::max(model.dof, model.n_signals));
+    signals.head(n) = s.temp;
+    const Eigen::Index motor = n + model.n_states;
+    if (signals.size() >= motor + 3 * n) {
+        signals.segment(motor, 3 * n) << s.q, s.qd, s.qdd;
+    }
+    if (model.n_states > 0) {
+        Eigen::VectorXd first(model.n_states);
+        model.first_states(s.q.data(), s.qd.data(), s.qdd.data(), s.t, signals.data(), first.data());
+        signals.segment(n, model.n_states) = first;
+    }
+    return signals;
+}
+
 /// Uniform numbers that are the same with every standard library.
 class uniform_numbers {
   public:
@@ -59,7 +77,8 @@ Eigen::VectorXd regrouped(const idim_model_interface& model, const value_table& 
 
 Eigen::VectorXd torque(const idim_model_interface& model, const motion_state& s, const Eigen::VectorXd& chi) {
     Eigen::VectorXd tau(model.dof);
-    model.inverse_dynamics(s.q.data(), s.qd.data(), s.qdd.data(), s.t, s.temp.data(), chi.data(), tau.data());
+    const Eigen::VectorXd signals = signals_of(model, s);
+    model.inverse_dynamics(s.q.data(), s.qd.data(), s.qdd.data(), s.t, signals.data(), chi.data(), tau.data());
     return tau;
 }
 

@@ -54,21 +54,6 @@ estimate failure(const observation& rows, const rank_report& rank, const std::st
     return result;
 }
 
-std::vector<double> deviations_of(const observation& rows, const joint_series& residual,
-                                  const std::vector<double>& parameter_share) {
-    std::vector<double> deviation;
-    for (int j = 0; j < rows.dof; ++j) {
-        double sum = 0.0;
-        for (const Eigen::VectorXd& segment : residual[j]) {
-            sum += segment.squaredNorm();
-        }
-        // At least one degree of freedom: rows that determine as many parameters leave a residual of zero anyway.
-        const double freedom = std::max(static_cast<double>(rows.rows(j)) - parameter_share[j], 1.0);
-        deviation.push_back(std::sqrt(sum / freedom));
-    }
-    return deviation;
-}
-
 void check_places(const observation_block& block, std::size_t joints) {
     if (block.kept.size() != joints) {
         throw std::invalid_argument(
@@ -102,6 +87,21 @@ void check_shapes(const observation& rows) {
             }
         }
     }
+}
+
+std::vector<double> joint_deviations(const observation& rows, const joint_series& residual,
+                                     const std::vector<double>& parameter_share) {
+    std::vector<double> deviation;
+    for (int j = 0; j < rows.dof; ++j) {
+        double sum = 0.0;
+        for (const Eigen::VectorXd& segment : residual[j]) {
+            sum += segment.squaredNorm();
+        }
+        // At least one degree of freedom: rows that determine as many parameters leave a residual of zero anyway.
+        const double freedom = std::max(static_cast<double>(rows.rows(j)) - parameter_share[j], 1.0);
+        deviation.push_back(std::sqrt(sum / freedom));
+    }
+    return deviation;
 }
 
 joint_series residuals(const observation& rows, const Eigen::VectorXd& chi) {
@@ -174,7 +174,7 @@ weighted_solution solve_weighted(const observation& rows, const std::vector<doub
     fit.condition_number = rank.condition_number;
     fit.scaled_condition_number = rank.scaled_condition_number;
     fit.samples = rows.rows();
-    fit.joint_deviation = deviations_of(rows, residuals(rows, fit.chi), qr.parameter_share());
+    fit.joint_deviation = joint_deviations(rows, residuals(rows, fit.chi), qr.parameter_share());
     fit.residual = errors(rows, fit.chi);
     fit.message = fmt::format("{} parameters from {} rows, all excited", rows.n_base, rows.rows());
     return {std::move(fit), std::move(qr)};

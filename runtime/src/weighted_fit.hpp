@@ -14,6 +14,11 @@ void check_shapes(const observation& rows);
 /// Y - W chi, [joint][block].
 joint_series residuals(const observation& rows, const Eigen::VectorXd& chi);
 
+/// Deviation of each joint's residual: the root of its square over the joint's rows less the parameters that they
+/// determine (parameter_share, stacked_qr.hpp).
+std::vector<double> joint_deviations(const observation& rows, const joint_series& residual,
+                                     const std::vector<double>& parameter_share);
+
 /// Rows of joint j multiplied by factor[j].
 joint_series scaled(joint_series series, const std::vector<double>& factor);
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Time and memory of `idim generate` over the number of joints: chains of 2 to 50 revolute joints and the tree of humanoid.yaml.
+# Time and memory of `idim generate` over the number of joints: chains of 2 to 50 revolute joints and the trees of humanoid.yaml and humanoid.urdf.
 # Usage: scaling.sh COMMAND FOLDER. Prints a table, the fitted exponent and a plot; FOLDER gets scaling.dat and scaling.svg.
 # User time, the least of three runs: what else the machine does counts less in it than in the time on the wall.
 set -euo pipefail
@@ -28,10 +28,10 @@ measure() { # DESCRIPTION -> seconds kilobytes
     done | sort -n | head -1
 }
 
-printf '%-10s %6s %10s %8s\n' robot joints "user [s]" "RSS [MB]"
+printf '%-13s %6s %10s %8s\n' robot joints "user [s]" "RSS [MB]"
 report() { # ROBOT JOINTS DESCRIPTION: a line of the table, and one of the data
     read -r seconds kilobytes <<<"$(measure "$3")"
-    printf '%-10s %6d %10.2f %8.0f\n' "$1" "$2" "$seconds" "$((kilobytes / 1024))"
+    printf '%-13s %6d %10.2f %8.0f\n' "$1" "$2" "$seconds" "$((kilobytes / 1024))"
     echo "$2 $seconds $((kilobytes / 1024))" >>"$folder/scaling.dat"
 }
 
@@ -42,4 +42,5 @@ for joints in 2 3 4 5 6 7 8 10 12 15 20 25 30 35 40 45 50; do
 done
 printf '\n\n' >>"$folder/scaling.dat" # separates the data sets
 report humanoid 50 "$here/humanoid.yaml"
+report humanoid_urdf 50 "$here/humanoid.urdf"
 gnuplot -e "folder='$folder'" "$here/scaling.gnuplot"

@@ -13,8 +13,10 @@
 #include <xsimd/xsimd.hpp>
 
 #include "effects_arm/inverse_dynamics.hpp"
+#include "effects_arm/inverse_dynamics_derivatives.hpp"
 #include "effects_arm/model.hpp"
 #include "rx90/inverse_dynamics.hpp"
+#include "rx90/inverse_dynamics_derivatives.hpp"
 #include "rx90/mass_matrix.hpp"
 #include "rx90/model.hpp"
 #include "rx90/regressor.hpp"
@@ -202,6 +204,77 @@ TEST(AutomaticDifferentiation, OfInverseDynamicsGivesTheInertiaMatrixAndTheRegre
         }
         for (int p = 0; p < b; ++p) {
             EXPECT_NEAR(tau[i].derivatives()[6 + p], W[i * b + p], rounding * (1.0 + std::abs(W[i * b + p])));
+        }
+    }
+}
+
+TEST(AutomaticDifferentiation, OfInverseDynamicsGivesTheGeneratedDerivatives) {
+    constexpr int n = rx90::dof;
+    using dual = Eigen::AutoDiffScalar<Eigen::Matrix<double, 2 * n, 1>>;
+    std::mt19937_64 random(54);
+    std::uniform_real_distribution<double> uniform(-2.0, 2.0);
+    for (int state = 0; state < 20; ++state) {
+        std::vector<double> q(n), qd(n), qdd(n), chi(rx90::base_parameters), by_q(n * n), by_qd(n * n);
+        for (auto* values : {&q, &qd, &qdd, &chi}) {
+            for (double& value : *values) {
+                value = uniform(random);
+            }
+        }
+        rx90::inverse_dynamics_derivatives(q.data(), qd.data(), qdd.data(), chi.data(), by_q.data(), by_qd.data());
+        std::vector<dual> position, velocity, tau(n);
+        for (int j = 0; j < n; ++j) {
+            position.emplace_back(q[j], 2 * n, j);
+            velocity.emplace_back(qd[j], 2 * n, n + j);
+        }
+        const std::vector<dual> acceleration(qdd.begin(), qdd.end()), parameters(chi.begin(), chi.end());
+        rx90::inverse_dynamics(position.data(), velocity.data(), acceleration.data(), parameters.data(), tau.data());
+        for (int i = 0; i < n; ++i) {
+            for (int j = 0; j < n; ++j) {
+                const auto& expected = tau[i].derivatives();
+                EXPECT_NEAR(by_q[n * i + j], expected[j], rounding * (1.0 + std::abs(expected[j])));
+                EXPECT_NEAR(by_qd[n * i + j], expected[n + j], rounding * (1.0 + std::abs(expected[n + j])));
+            }
+        }
+    }
+}
+
+TEST(Derivatives, OfEffectsAreThoseOfDifferences) {
+    constexpr int n = effects_arm::dof;
+    std::mt19937_64 random(55);
+    std::uniform_real_distribution<double> uniform(0.3, 1.2);  // away from 0, where signs jump
+    const auto draw = [&](int size) {
+        std::vector<double> values(static_cast<std::size_t>(size));
+        for (double& value : values) {
+            value = uniform(random);
+        }
+        return values;
+    };
+    for (int state = 0; state < 20; ++state) {
+        std::vector<double> q = draw(n), qd = draw(n), by_q(n * n), by_qd(n * n);
+        const std::vector<double> qdd = draw(n), temp = draw(n), chi = draw(effects_arm::base_parameters);
+        const double t = uniform(random);
+        effects_arm::inverse_dynamics_derivatives(q.data(), qd.data(), qdd.data(), t, temp.data(), chi.data(),
+                                                  by_q.data(), by_qd.data());
+        const auto torque = [&](double& moved, double step) {
+            const double kept = moved;
+            moved += step;
+            std::array<double, n> tau{};
+            effects_arm::inverse_dynamics(q.data(), qd.data(), qdd.data(), t, temp.data(), chi.data(), tau.data());
+            moved = kept;
+            return tau;
+        };
+        for (int j = 0; j < n; ++j) {
+            for (const bool of_velocity : {false, true}) {
+                double& moved = of_velocity ? qd[j] : q[j];
+                constexpr double h = 1e-3;  // of fourth order: error h^4 times the fifth derivative
+                const auto p = torque(moved, h), m = torque(moved, -h), pp = torque(moved, 2 * h),
+                           mm = torque(moved, -2 * h);
+                for (int i = 0; i < n; ++i) {
+                    const double expected = (8.0 * (p[i] - m[i]) - (pp[i] - mm[i])) / (12.0 * h);
+                    const double found = (of_velocity ? by_qd : by_q)[n * i + j];
+                    EXPECT_NEAR(found, expected, 1e-7 * (1.0 + std::abs(expected)));
+                }
+            }
         }
     }
 }

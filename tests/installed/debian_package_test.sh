@@ -33,6 +33,7 @@ HoldWhatTheSourcesHave() {
         echo ./usr/include/idim/model_interface.h
         printf './usr/share/cmake/idim/%s\n' idim-config.cmake idim-config-version.cmake idim_generate.cmake
         printf './usr/share/doc/idim/%s\n' README.md changelog.gz copyright
+        echo ./usr/share/man/man1/idim.1.gz
     } | sort)
     same "$command" "$expected" "$(listed "$command")"
     expected=$({

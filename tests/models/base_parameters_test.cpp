@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <random>
+#include <regex>
 
 #include "base_parameters/base_parameter_set.hpp"
 #include "oracles/effect_terms.hpp"
@@ -113,7 +114,7 @@ TEST(BaseParameters, DensoHasThePublishedCounts) {
 }
 
 TEST(BaseParameters, GeneralSixAxisRobotsHaveThePublishedCounts) {
-    for (const char* robot : {"puma560", "rx90", "tx40", "denso_vp6242g"}) {
+    for (const char* robot : {"puma560", "rx90", "tx40", "ur5", "denso_vp6242g"}) {
         EXPECT_EQ(count(robot, rigid), 36u) << robot;
         EXPECT_EQ(count(robot, rotors), 40u) << robot;
         EXPECT_EQ(count(robot, rotors_friction), 52u) << robot;
@@ -122,12 +123,22 @@ TEST(BaseParameters, GeneralSixAxisRobotsHaveThePublishedCounts) {
 }
 
 TEST(BaseParameters, SevenAxisRobotsHaveThePublishedCounts) {
-    for (const char* robot : {"kuka_lwr", "panda"}) {
+    for (const char* robot : {"kuka_lwr", "panda", "xmate7p", "kinova_gen3"}) {
         EXPECT_EQ(count(robot, rigid), 43u) << robot;
         EXPECT_EQ(count(robot, rotors), 48u) << robot;
         EXPECT_EQ(count(robot, rotors_friction), 62u) << robot;
         EXPECT_EQ(count(robot, everything), 69u) << robot;
     }
+}
+
+TEST(BaseParameters, LinksWithoutMassLeaveTheFrictionOfEachJoint) {
+    // Few columns a joint: at too few states a joint turns the same way in all of them, and its Coulomb friction would
+    // pass for an offset.
+    const std::string massless =
+        std::regex_replace(read_text(robot_file("kinova_gen3")), std::regex("\\{name: j"), "{massless: true, name: j");
+    const temporary_folder folder;
+    const std::string file = folder.write("kinova_gen3.yaml", massless);
+    EXPECT_EQ(generator::find_base(file, templates_folder).parameters.size(), 28u);
 }
 
 TEST(BaseParameters, StanfordHasThirtyThreeRigidOnes) {
@@ -276,7 +287,9 @@ TEST(RigidLinksAlone, HaveTheOperationsOfTheRobotWithoutEffects) {
 }
 
 INSTANTIATE_TEST_SUITE_P(RevoluteRobots, Regrouping,
-                         testing::Values("denso_vp6242g", "puma560", "rx90", "tx40", "panda", "kuka_lwr"), robot_name);
+                         testing::Values("denso_vp6242g", "puma560", "rx90", "tx40", "ur5", "panda", "kuka_lwr",
+                                         "xmate7p", "kinova_gen3"),
+                         robot_name);
 
 TEST_P(Rank, IsThatOfARegressorByKdl) {
     const mdh_table table = mdh_table_of(generator::read_robot(robot_file(GetParam())));

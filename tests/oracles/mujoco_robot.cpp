@@ -69,4 +69,21 @@ Eigen::MatrixXd mujoco_robot::mass_matrix(const Eigen::VectorXd& q) const {
     return M(velocity_, velocity_);
 }
 
+Eigen::VectorXd mujoco_robot::forward_dynamics(const Eigen::VectorXd& q, const Eigen::VectorXd& qd,
+                                               const Eigen::VectorXd& tau, const Eigen::VectorXd& rotor) const {
+    Eigen::VectorXd qdd(q.size());
+    for (std::size_t j = 0; j < position_.size(); ++j) {
+        const auto joint = static_cast<Eigen::Index>(j);
+        data_->qpos[position_[j]] = q[joint];
+        data_->qvel[velocity_[j]] = qd[joint];
+        data_->qfrc_applied[velocity_[j]] = tau[joint];
+        model_->dof_armature[velocity_[j]] = rotor[joint];
+    }
+    mj_forward(model_.get(), data_.get());
+    for (std::size_t j = 0; j < velocity_.size(); ++j) {
+        qdd[static_cast<Eigen::Index>(j)] = data_->qacc[velocity_[j]];
+    }
+    return qdd;
+}
+
 }  // namespace idim::test

@@ -20,6 +20,9 @@ class mujoco_robot {
 
     Eigen::VectorXd inverse_dynamics(const joint_state& state) const;
     Eigen::MatrixXd mass_matrix(const Eigen::VectorXd& q) const;
+    /// Accelerations under torques; `rotor` [n] is added to the diagonal of the inertia matrix.
+    Eigen::VectorXd forward_dynamics(const Eigen::VectorXd& q, const Eigen::VectorXd& qd, const Eigen::VectorXd& tau,
+                                     const Eigen::VectorXd& rotor) const;
 
   private:
     void set(const joint_state& state) const;

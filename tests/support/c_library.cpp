@@ -34,8 +34,8 @@ std::vector<std::string> c_library::sources() const {
     return names;
 }
 
-c_library::c_library(const std::string& robot_file)
-    : generated_(generator::generate(robot_file, templates_folder, {"c"})) {
+c_library::c_library(const std::string& robot_file, bool derivatives)
+    : generated_(generator::generate(robot_file, templates_folder, {"c", derivatives})) {
     for (const generator::rendered_file& file : generated_.files) {
         folder_.write(file.name, file.text);
     }

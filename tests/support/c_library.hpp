@@ -14,7 +14,7 @@ namespace idim::test {
 class c_library {
   public:
     /// Throws std::runtime_error with the compiler's message where a file does not compile.
-    explicit c_library(const std::string& robot_file);
+    explicit c_library(const std::string& robot_file, bool derivatives = false);
 
     const generator::generated_model& generated() const { return generated_; }
     /// The folder of the sources.

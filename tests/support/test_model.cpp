@@ -39,8 +39,9 @@ std::vector<model_source> sources_of(const generator::generated_model& generated
         const bool is_interface = file.name == "model_interface.cpp";
         sources.push_back({is_interface ? "model_interface.inc" : file.name, file.text});
         const bool is_dynamics = file.name == "inverse_dynamics.hpp";
-        needs_signals = needs_signals || (is_dynamics && (file.text.find("Scalar& t,") != std::string::npos ||
-                                                          file.text.find("Scalar* temp,") != std::string::npos));
+        for (const char* signal : {"Scalar& t,", "Scalar* temp,", "Scalar* state,", "Scalar* motor,"}) {
+            needs_signals = needs_signals || (is_dynamics && file.text.find(signal) != std::string::npos);
+        }
     }
     const std::string source = replaced(interface_source, "FLOAT_FUNCTION", needs_signals ? "" : float_function);
     sources.push_back(

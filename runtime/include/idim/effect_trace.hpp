@@ -30,8 +30,8 @@ struct effect_parameter {
     std::string name;
     std::string unit;
     double value = 0.0;
-    double std = 0.0;      ///< robust to the autocorrelation of the residual
-    bool is_shape = false; ///< enters the description as a shape value
+    double std = 0.0;       ///< robust to the autocorrelation of the residual
+    bool is_shape = false;  ///< enters the description as a shape value
 };
 
 /// Errors on the logs that were fitted and on those held back.
@@ -56,7 +56,12 @@ struct trace_candidate {
     effect_place place;
     double p_value = 1.0;
     double explained_fraction = 0.0;
-    std::string objection;  ///< why it is not in the model
+    double f_statistic = 0.0;         ///< partial F on effective rows
+    double correlation_length = 1.0;  ///< of the residual it leaves [rows]
+    double held_back_z = 0.0;         ///< gain on data held back in its own deviations, all rows
+    double moving_z = 0.0;            ///< the same away from reversals
+    std::vector<double> values;       ///< linear coefficients, then shapes
+    std::string objection;            ///< why it is not in the model
 };
 
 /// Dependence of the residual on signals that no known effect fits.
@@ -92,16 +97,16 @@ struct trace_input {
     std::vector<filtered_samples> held_back;
     filter_choice filter;
     const idim_effect_table* catalogue = nullptr;
-    std::vector<effect_place> declared;  ///< effects the description has already
-    int most_effects = 12;               ///< 0: only look
+    std::vector<effect_place> declared;                ///< effects the description has already
+    int most_effects = 12;                             ///< 0: only look
     std::function<void(const std::string&)> progress;  ///< one line for the user; may be empty
 };
 
-/// Finds what the model lacks: looks at the residual of weighted least squares, tries every effect of the catalogue at every
-/// joint, adds the one that gains most where it is significant (partial F on effective rows, corrected for everything
-/// tried), gains on data it was not fitted to, away from reversals too, and is plausible; then again, terms that others made
-/// needless taken out, until nothing passes. METHODS.md has the equations; the tests of acceptance stand in effect_tracer.
-/// Throws data_error where the rows are too few.
+/// Finds what the model lacks: looks at the residual of weighted least squares, tries every effect of the catalogue at
+/// every joint, adds the one that gains most where it is significant (partial F on effective rows, corrected for
+/// everything tried), gains on data it was not fitted to, away from reversals too, and is plausible; then again, terms
+/// that others made needless taken out, until nothing passes. METHODS.md has the equations; the tests of acceptance
+/// stand in effect_tracer. Throws data_error where the rows are too few.
 effect_trace trace_effects(const trace_input& input);
 
 /// Cuts the last `share` of a log off to be held back, `gap` seconds left out between: where no log was given for

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "idim/motion_distance.hpp"
 #include "idim/observation.hpp"
 
 namespace idim {
@@ -22,10 +23,15 @@ struct error_summary {
     std::vector<joint_error> joints;
 };
 
-/// What one step of an iterative method left (IRLS; later the instrumental variable).
+/// What one step of an iterative method left. The methods that simulate (loop_identification.hpp) fill all of it, IRLS
+/// the first two entries.
 struct iteration {
     Eigen::VectorXd chi;
-    double relative_error = 0.0;
+    double relative_error = 0.0;                     ///< |Y - W chi| / |Y|
+    std::vector<joint_error> joint_errors = {};      ///< of every joint
+    double simulated_error = 0.0;                    ///< |Y - W_s chi| / |Y|, W_s along the motion simulated with chi
+    std::vector<motion_distance> to_measured = {};   ///< per joint: simulated motion against the filtered measured one
+    std::vector<motion_distance> to_reference = {};  ///< per joint: against the reference; empty if there is none
 };
 
 /// Result of an identification; a numeric failure is a result that explains itself, never a NaN that passes for a

@@ -11,7 +11,7 @@ namespace idim {
 
 /// What the user may fix of the filtering; what is left empty is chosen from the data by choose_filter.
 struct filter_request {
-    std::optional<double> cutoff = {};   ///< Butterworth cut-off of the position filter [Hz]
+    std::optional<double> cutoff = {};   ///< Butterworth cut-off of the position filter [Hz]; 0 leaves it out
     std::optional<int> order = {};       ///< its order (applied forward and backward), default 4
     std::optional<int> decimation = {};  ///< one sample in n_d of the parallel decimation
     /// Part of a joint's top speed below which its rows are left out, 0 to below 1, default 0.01.
@@ -23,7 +23,7 @@ inline constexpr double held_range = 1e-3;
 
 /// The filtering that is applied, the same for every log of one identification, and why.
 struct filter_choice {
-    double cutoff = 0.0;  ///< [Hz]
+    double cutoff = 0.0;  ///< [Hz]; 0: the position is differentiated as it was measured
     int order = 4;
     int decimation = 1;
     /// One sentence for the report: what was given, what was chosen from the data and by which figure.

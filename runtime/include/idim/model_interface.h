@@ -4,7 +4,10 @@
 #ifndef IDIM_MODEL_INTERFACE_H
 #define IDIM_MODEL_INTERFACE_H
 
-#define IDIM_MODEL_ABI 3
+#define IDIM_MODEL_ABI 4
+
+/* What forward_dynamics returns where it found no accelerations that give the torque. */
+#define IDIM_NOT_CONVERGED (-1)
 
 #include <stddef.h>
 
@@ -21,8 +24,15 @@ struct idim_samples {
     const double* qd;
     const double* qdd;
     const double* t;    /* read if needs_time */
-    const double* temp; /* read if needs_temperature */
+    const double* temp; /* signals beside the motion: read if n_signals > 0, see idim_model_interface */
 };
+
+/* `temp`, everywhere below: what effects read beside the motion and the time, [n_signals], one block behind the other:
+ *   temperatures [n], the only ones where n_signals is n;
+ *   states of effects [n_states];
+ *   where joint_stiffness has an element that is not 0: positions, velocities, accelerations of the motors [3 x n], joint side;
+ *   if needs_rigid_torque: torque of links and payloads alone [n], read by the regressors only, the others know it themselves.
+ * mass_matrix, bias and forward_dynamics take the transmissions as rigid: motion is that of the motors and the links. */
 
 struct idim_model_interface {
     int abi;                            /* IDIM_MODEL_ABI of the generator that wrote the model */
@@ -46,13 +56,13 @@ struct idim_model_interface {
     /* tau [n] = M(q) qdd + N(q, qd) */
     void (*inverse_dynamics)(const double* q, const double* qd, const double* qdd, double t, const double* temp,
                              const double* chi, double* tau);
-    /* M [n x n], rotor inertias included, symmetric */
+    /* M [n x n], rotor inertias included, symmetric but for rows that a gain error scales; without payloads that are on for a time only */
     void (*mass_matrix)(const double* q, const double* chi, double* M);
     /* N [n]: centrifugal, Coriolis, gravity and every effect that does not depend on qdd */
     void (*bias)(const double* q, const double* qd, double t, const double* temp, const double* chi, double* N);
-    /* G [n]: gravity torques of the rigid links alone */
+    /* G [n]: gravity torques of the rigid links alone, without payloads that are on for a time only */
     void (*gravity)(const double* q, const double* chi, double* G);
-    /* qdd [n] = M(q)^-1 (tau - N); returns 0, or j in 1..n where the factorisation met a pivot that is not positive */
+    /* qdd [n] = M(q)^-1 (tau - N); returns 0, or j in 1..n where the factorisation met a pivot that is not positive, or IDIM_NOT_CONVERGED */
     int (*forward_dynamics)(const double* q, const double* qd, const double* tau, double t, const double* temp,
                             const double* chi, double* qdd);
     /* Regressors: row i, column p of sample k at W[(i * b + p) * W_stride + k], W_stride >= count. What a sample gives differs from regressor() by a
@@ -62,6 +72,18 @@ struct idim_model_interface {
     void (*inverse_dynamics_batch)(const struct idim_samples* samples, const double* chi, double* tau, size_t tau_stride);
     /* chi [b] of a robot whose standard parameters [s] are known */
     void (*regroup)(const double* standard, double* chi);
+    int n_signals;                     /* elements of `temp`; 0: it is not read */
+    int n_states;                      /* states of effects */
+    int needs_rigid_torque;            /* 1 if an effect depends on the torque of the links */
+    const char* const* state_names;    /* [n_states] such as z2; null if there are none */
+    const double* torque_delay;        /* [n] how late the torque is recorded [s]: the rows of a joint are those of the state so long before */
+    const double* joint_stiffness;     /* [n] N*m/rad or N/m; 0 where the transmission is rigid */
+    const int* parameter_is_per_log;   /* [b] 1 where every log has a value of its own */
+    /* Torque of links and payloads alone [n]; null if no effect needs it */
+    void (*rigid_torque)(const double* q, const double* qd, const double* qdd, double t, const double* chi, double* tau_rigid);
+    /* States [n_states] at the first sample of a motion, and at the sample dt [s] after this one; null if there are none */
+    void (*first_states)(const double* q, const double* qd, const double* qdd, double t, const double* temp, double* start);
+    void (*next_states)(const double* q, const double* qd, const double* qdd, double t, const double* temp, double dt, double* next);
 };
 
 /* The one symbol a loaded model exports. */

@@ -26,9 +26,16 @@ struct observation_block {
 };
 
 struct observation {
+    /// What a column of W belongs to: a base parameter, and where that is each log's own, the log (-1: all).
+    struct column {
+        int parameter = 0;
+        int log = -1;
+    };
+
     std::vector<observation_block> blocks;
     int dof = 0;
-    int n_base = 0;
+    int n_base = 0;                    ///< columns
+    std::vector<column> columns = {};  ///< empty: one for each base parameter
 
     /// Rows of joint j over all blocks.
     Eigen::Index rows(int joint) const;
@@ -37,6 +44,9 @@ struct observation {
     /// Part of the samples of all joints that are no rows, 0 to 1.
     double share_left_out() const;
 };
+
+/// Of a column of the rows.
+observation::column column_of(const observation& rows, int column);
 
 /// Every one of `samples` for each of `joints` joints.
 row_selection all_rows(int joints, Eigen::Index samples);
@@ -54,14 +64,18 @@ row_selection all_rows(int joints, Eigen::Index samples);
 /// short to decimate.
 row_selection select_rows(const filtered_samples& samples, const filter_choice& choice);
 
-/// Evaluates the regressor on the samples of every log, decimates its columns and the torque in parallel (METHODS.md,
-/// IDIM-LS 3): same zero-phase filter, same samples kept; then takes the rows that select_rows names.
+/// Evaluates the regressor on the states that the torques of every log belong to (recorded_states), decimates its
+/// columns and the torque in parallel (METHODS.md, IDIM-LS 3): same zero-phase filter, same samples kept; then takes
+/// the rows that select_rows names, but for those whose state would lie outside the log. Where rows depend on the
+/// parameters (depends_on_parameters) they are those of `chi` [b], or of no estimate yet.
 observation observe(const idim_model_interface& model, const std::vector<filtered_samples>& logs,
-                    const filter_choice& choice);
+                    const filter_choice& choice, const Eigen::VectorXd& chi = {});
 
 /// The same with given rows, one selection per log: instruments along a simulated trajectory take those of the measured
-/// one (`kept` of its blocks). Throws std::invalid_argument if they do not fit the logs.
+/// one (`kept` of its blocks). `chi` [b]: the estimate that rows are of if they depend on the parameters. Throws
+/// std::invalid_argument if they do not fit the logs.
 observation observe(const idim_model_interface& model, const std::vector<filtered_samples>& logs,
-                    const filter_choice& choice, const std::vector<row_selection>& kept);
+                    const filter_choice& choice, const std::vector<row_selection>& kept,
+                    const Eigen::VectorXd& chi = {});
 
 }  // namespace idim

@@ -9,8 +9,8 @@ namespace idim {
 
 namespace {
 
-/// Where the linearisation of an effect on the model's own torque starts: a quarter of a sample's delay, a compliance whose
-/// twist is a thousandth of the smallest range of motion at the largest torque.
+/// Where the linearisation of an effect on the model's own torque starts: a quarter of a sample's delay, a compliance
+/// whose twist is a thousandth of the smallest range of motion at the largest torque.
 constexpr double first_delay = 0.25;
 constexpr double first_twist = 1e-3;
 
@@ -27,10 +27,11 @@ double first_compliance(const trace_input& input, int joint) {
 void add_at_joints(const trace_input& input, const idim_effect& effect, const Eigen::VectorXd& chi,
                    std::vector<candidate_pointer>& list) {
     const idim_model_interface& model = *input.model;
+    const double period = 1.0 / input.fitted.front().rate;
     for (int j = 0; j < model.dof; ++j) {
         switch (effect.kind) {
             case IDIM_EFFECT_DELAY:
-                list.push_back(delay_candidate(j, first_delay / input.fitted.front().rate));
+                list.push_back(delay_candidate(j, first_delay * period, period));
                 break;
             case IDIM_EFFECT_GAIN:
                 list.push_back(gain_candidate(j));

@@ -19,6 +19,7 @@ struct linear_bound {
     std::string name;
     std::string unit;
     double min = -std::numeric_limits<double>::infinity();
+    double negligible = 0.0;  ///< a smaller value is none of the robot's
 };
 
 /// A coefficient that enters nonlinearly and is searched in [low, high].
@@ -41,14 +42,17 @@ class effect_candidate {
   public:
     virtual ~effect_candidate() = default;
 
-    std::string effect;               ///< as in the catalogue
-    std::vector<int> joints;          ///< where it acts, as reported
-    std::optional<int> from;          ///< the joint whose signals drive it
-    std::vector<linear_bound> linear; ///< m of them
+    std::string effect;                ///< as in the catalogue
+    std::vector<int> joints;           ///< where it acts, as reported
+    std::optional<int> from;           ///< the joint whose signals drive it
+    std::vector<linear_bound> linear;  ///< m of them
     std::vector<shape_bound> shape;
     column_role role = column_role::linear;
-    bool per_log = false;       ///< linear coefficients are refitted for each log
-    std::vector<int> touched;   ///< joints whose rows its columns fill
+    bool per_log = false;  ///< linear coefficients are refitted for each log
+    /// A direction of the scaled columns whose norm outside the model's span is below this counts as within it: a drive
+    /// gain shows only in 1e-4 of its column, rounding and filter ends in 1e-7.
+    double least_outside = 1e-5;
+    std::vector<int> touched;  ///< joints whose rows its columns fill
 
     /// Columns of one joint's rows in one log (rows x m), filtered and decimated as the torque is.
     virtual Eigen::MatrixXd rows(const traced_log& log, int joint, const Eigen::VectorXd& at) const = 0;

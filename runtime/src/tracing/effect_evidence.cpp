@@ -35,10 +35,10 @@ Eigen::VectorXd block_sums(const Eigen::VectorXd& series, Eigen::Index length) {
     return sums;
 }
 
-/// Decrease of the weighted squared residual from `before` to `after` in one log, and its deviation. With d the change of
-/// the residual, the decrease is sum (2 before d - d^2), that is (2 beta - 1) sum d^2 with beta the slope of `before` on d:
-/// 1 for an effect that is there, 0 for one that is not. Its deviation is that of the slope, from sums over blocks of what
-/// the slope leaves; blocks in which much is gained do not make it uncertain.
+/// Decrease of the weighted squared residual from `before` to `after` in one log, and its deviation. With d the change
+/// of the residual, the decrease is sum (2 before d - d^2), that is (2 beta - 1) sum d^2 with beta the slope of
+/// `before` on d: 1 for an effect that is there, 0 for one that is not. Its deviation is that of the slope, from sums
+/// over blocks of what the slope leaves; blocks in which much is gained do not make it uncertain.
 struct loss_decrease {
     double value = 0.0;
     double variance = 0.0;
@@ -152,8 +152,8 @@ double correlation_length(const trace_fit& fit, const log_series& residual, int 
         if (!log.held_back && residual[l][static_cast<std::size_t>(joint)].size() > 0) {
             const auto j = static_cast<std::size_t>(joint);
             const Eigen::VectorXd weighted = residual[l][j].cwiseProduct(fit.weight()[l][j]);
-            segments.push_back({on_grid(log, joint, weighted),
-                                on_grid(log, joint, Eigen::VectorXd::Ones(weighted.size()))});
+            segments.push_back(
+                {on_grid(log, joint, weighted), on_grid(log, joint, Eigen::VectorXd::Ones(weighted.size()))});
         }
     }
     const Eigen::Index samples = samples_of(segments);
@@ -171,7 +171,7 @@ effect_evidence test_on_fitted(const trace_fit& fit, const effect_term& term, bo
     evidence.term = term;
     evidence.coefficient = columns.coefficient;
     evidence.gain = columns.gain;
-    evidence.outside = columns.outside;
+    evidence.within_span = columns.rank == 0 && columns.scale.maxCoeff() > 0.0;
     if (columns.rank == 0 || !(columns.gain > 0.0) || !within_bounds(candidate, columns.coefficient)) {
         evidence.gain = 0.0;
         return evidence;
@@ -184,8 +184,8 @@ effect_evidence test_on_fitted(const trace_fit& fit, const effect_term& term, bo
             const Eigen::Index place = candidate.per_log ? m * static_cast<Eigen::Index>(l) : 0;
             const Eigen::VectorXd added =
                 columns.weighted[l][i] * columns.coefficient.segment(place, m) -
-                fit.weight()[l][joint].cwiseProduct(
-                    fit.columns(l, columns.touched[i]) * fit.basis_times(columns.on_basis * columns.coefficient));
+                fit.weight()[l][joint].cwiseProduct(fit.columns(l, columns.touched[i]) *
+                                                    fit.basis_times(columns.on_basis * columns.coefficient));
             left[l][joint] -= added.cwiseQuotient(fit.weight()[l][joint]);
         }
     }
@@ -226,8 +226,7 @@ void test_on_held_back(const trace_fit& fit, effect_evidence& evidence) {
         const double length = evidence.correlation_length;
         const loss_decrease all = decrease(fit, l, fit.residual()[l], left[l], length, false);
         const loss_decrease moving = decrease(fit, l, fit.residual()[l], left[l], length, true);
-        evidence.held_back.push_back(
-            {all.value, std::sqrt(all.variance), moving.value, std::sqrt(moving.variance)});
+        evidence.held_back.push_back({all.value, std::sqrt(all.variance), moving.value, std::sqrt(moving.variance)});
         held_back += all.value;
         for (const int j : candidate.touched) {
             const auto joint = static_cast<std::size_t>(j);

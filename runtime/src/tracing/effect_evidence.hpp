@@ -26,7 +26,7 @@ struct effect_evidence {
     double freedom = 1.0;             ///< effective rows less parameters
     double f_statistic = 0.0;         ///< partial F on effective rows
     double p_value = 1.0;             ///< of that F, not corrected for the candidates tried
-    double outside = 0.0;             ///< share of its columns outside the span of the model
+    bool within_span = false;         ///< its columns move, but only as the model's own do
     int shapes_tried = 1;
     std::vector<held_back_gain> held_back;  ///< per log held back
     double score = 0.0;  ///< decrease of the weighted squared residual of all logs, less the price of the parameters
@@ -45,8 +45,8 @@ effect_evidence test_on_fitted(const trace_fit& fit, const effect_term& term, bo
 /// Adds what the logs held back say.
 void test_on_held_back(const trace_fit& fit, effect_evidence& evidence);
 
-/// Loss of residuals `first` less that of `second` on all logs (or those held back), in deviations of it: positive if `second` fits better
-/// [Vuong 1989, on blocks longer than the correlation].
+/// Loss of residuals `first` less that of `second` on all logs (or those held back), in deviations of it: positive if
+/// `second` fits better [Vuong 1989, on blocks longer than the correlation].
 double loss_difference(const trace_fit& fit, const log_series& first, const log_series& second,
                        double correlation_length, bool held_back_only = false);
 

@@ -22,6 +22,8 @@ namespace {
 constexpr double first_alignment = 0.5;  ///< of a sample: where its linearisation starts
 constexpr int linearisations = 3;
 constexpr double implausible_z = 2.0;
+/// The error over all joints may rise by this part: other joints' parameters move within their deviations.
+constexpr double error_margin = 2e-3;
 
 error_summary errors_of(const trace_fit& fit, bool held_back) {
     error_summary summary;
@@ -63,7 +65,8 @@ double explained_fraction(const trace_fit& before, const trace_fit& after, const
             removed += first - weight * after.residual()[l][joint].squaredNorm();
             there += first;
             if (floor.rms.size() > 0) {
-                const double noise = floor.rms[j] * floor.rms[j] * static_cast<double>(before.residual()[l][joint].size());
+                const double noise =
+                    floor.rms[j] * floor.rms[j] * static_cast<double>(before.residual()[l][joint].size());
                 there -= weight * std::min(noise, before.residual()[l][joint].squaredNorm());
             }
         }
@@ -158,7 +161,8 @@ class tracer {
         }
         fixed_ = 1;
         use_torques_of(fit);
-        return fit_with_own_noise(logs_, {{alignment_candidate(input_.model->dof, at), Eigen::VectorXd()}}, &fit.noise());
+        return fit_with_own_noise(logs_, {{alignment_candidate(input_.model->dof, at), Eigen::VectorXd()}},
+                                  &fit.noise());
     }
 
     effect_survey look(const trace_fit& fit) {
@@ -168,24 +172,32 @@ class tracer {
         result_.not_identifiable = all.within_span;
         result_.candidates.clear();
         for (const tried_candidate& tried : all.candidates) {
-            const effect_candidate& candidate = *tried.evidence.term.candidate;
+            const effect_evidence& evidence = tried.evidence;
+            const effect_candidate& candidate = *evidence.term.candidate;
+            std::vector<double> values(evidence.coefficient.begin(), evidence.coefficient.end());
+            values.insert(values.end(), evidence.term.shape.begin(), evidence.term.shape.end());
             result_.candidates.push_back({{candidate.effect, candidate.joints, candidate.from},
                                           tried.p_value,
-                                          tried.evidence.explained_fraction,
+                                          evidence.explained_fraction,
+                                          evidence.f_statistic,
+                                          evidence.correlation_length,
+                                          evidence.z_all(),
+                                          evidence.z_moving(),
+                                          std::move(values),
                                           tried.objection});
         }
         return all;
     }
 
-    /// The fit with the best candidate that passes, everything fitted again and needless terms taken out; none if there is
-    /// no such candidate, or the fit is no better for it.
+    /// The fit with the best candidate that passes, everything fitted again and needless terms taken out; none if there
+    /// is no such candidate, or the fit is no better for it.
     std::optional<trace_fit> with_one_more(const trace_fit& fit) {
         const effect_survey all = look(fit);
         for (std::size_t i = 0; i < all.candidates.size() && all.candidates[i].objection.empty(); ++i) {
             std::vector<effect_term> terms = fit.terms();
             terms.push_back(all.candidates[i].evidence.term);
             trace_fit with = settled(fit_with_own_noise(logs_, terms, &fit.noise()));
-            if (errors_of(with, true).relative_error > errors_of(fit, true).relative_error ||
+            if (errors_of(with, true).relative_error > (1.0 + error_margin) * errors_of(fit, true).relative_error ||
                 makes_implausible(fit, with)) {
                 continue;
             }
@@ -197,7 +209,8 @@ class tracer {
 
     /// Whether a coefficient that cannot be negative, such as a friction's, has become so beyond its uncertainty.
     bool makes_implausible(const trace_fit& before, const trace_fit& after) const {
-        const double length = correlation_length(after, after.residual(), after.terms().back().candidate->touched.front());
+        const double length =
+            correlation_length(after, after.residual(), after.terms().back().candidate->touched.front());
         for (Eigen::Index k = 0; k < least_.size(); ++k) {
             const double deviation = std::sqrt(length) * after.white_deviation(k);
             const double value = after.chi()[k];
@@ -281,13 +294,12 @@ class tracer {
             for (Eigen::Index c = 0; c < values[i].value.size(); ++c) {
                 const bool linear = c < m;
                 const auto k = static_cast<std::size_t>(linear ? c : c - m);
-                const auto [value, deviation] =
-                    linear ? candidate.declared(values[i].value[c], values[i].deviation[c])
-                           : std::pair(values[i].value[c], values[i].deviation[c]);
-                result_.steps[s].parameters.push_back(
-                    {linear ? candidate.linear[k].name : candidate.shape[k].name,
-                     linear ? candidate.linear[k].unit : candidate.shape[k].unit, value, deviation,
-                     !linear || candidate.role == column_role::shape});
+                const auto [value, deviation] = linear ? candidate.declared(values[i].value[c], values[i].deviation[c])
+                                                       : std::pair(values[i].value[c], values[i].deviation[c]);
+                result_.steps[s].parameters.push_back({linear ? candidate.linear[k].name : candidate.shape[k].name,
+                                                       linear ? candidate.linear[k].unit : candidate.shape[k].unit,
+                                                       value, deviation,
+                                                       !linear || candidate.role == column_role::shape});
             }
         }
     }
@@ -296,7 +308,7 @@ class tracer {
     std::vector<traced_log> logs_;
     effect_trace result_;
     Eigen::VectorXd least_;  ///< smallest value of each base parameter that makes sense
-    int fixed_ = 0;  ///< terms in front that are no effects
+    int fixed_ = 0;          ///< terms in front that are no effects
 };
 
 }  // namespace

@@ -3,21 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
-#include "parallel_for.hpp"
+#include "parallel.hpp"
 #include "shape_search.hpp"
 
 namespace idim {
 
 namespace {
 
-constexpr double significance = 0.01;          ///< corrected for everything tried
-constexpr double promising = 0.2;              ///< corrected p of the quick columns, to look at the exact ones
-constexpr double least_held_back_z = 2.33;     ///< one-sided 1 %
-constexpr double least_moving_z = 2.0;         ///< one-sided 2.3 %, away from reversals
-constexpr double least_explained = 0.015;      ///< of the residual variance on data not fitted to
-constexpr double indistinguishable_z = 2.0;    ///< two-sided 5 %
-constexpr double look_alike = 0.8;             ///< correlation of what two candidates predict outside the span
-constexpr double needed_z = 1.0;               ///< a term that gains less on data not fitted to has become needless
+constexpr double significance = 0.01;        ///< corrected for everything tried
+constexpr double promising = 0.2;            ///< corrected p of the quick columns, to look at the exact ones
+constexpr double least_held_back_z = 2.33;   ///< one-sided 1 %
+constexpr double least_moving_z = 2.0;       ///< one-sided 2.3 %, away from reversals
+constexpr double least_explained = 0.015;    ///< of the residual variance on data not fitted to
+constexpr double indistinguishable_z = 2.0;  ///< two-sided 5 %
+constexpr double look_alike = 0.8;           ///< correlation of what two candidates predict outside the span
+constexpr double needed_z = 1.0;             ///< a term that gains less on data not fitted to has become needless
 
 /// Torque of the effect at one joint over the fitted logs must not exceed what the joint has at all.
 bool is_plausible(const trace_fit& fit, const effect_evidence& evidence) {
@@ -42,19 +42,32 @@ bool is_plausible(const trace_fit& fit, const effect_evidence& evidence) {
     return true;
 }
 
-/// Squared residual of a log held back, all joints, not weighted [(N*m)^2].
-double squared_error(const std::vector<Eigen::VectorXd>& residual) {
+bool is_negligible(const effect_evidence& evidence) {
+    const std::vector<linear_bound>& linear = evidence.term.candidate->linear;
+    for (std::size_t c = 0; c < linear.size(); ++c) {
+        if (std::abs(evidence.coefficient[static_cast<Eigen::Index>(c)]) >= linear[c].negligible) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// Squared residual of some joints of one log, not weighted.
+double squared_error(const std::vector<Eigen::VectorXd>& residual, const std::vector<int>& joints) {
     double sum = 0.0;
-    for (const Eigen::VectorXd& joint : residual) {
-        sum += joint.squaredNorm();
+    for (const int j : joints) {
+        sum += residual[static_cast<std::size_t>(j)].squaredNorm();
     }
     return sum;
 }
 
+/// Whether the joints at which the effect acts are predicted worse in some log it was not fitted to. The error over all
+/// joints does not decide: it is that of the joint with the largest torque.
 bool raises_an_error(const trace_fit& fit, const effect_evidence& evidence) {
     const log_series left = residual_with(fit, evidence);
+    const std::vector<int>& joints = evidence.term.candidate->joints;
     for (std::size_t l = 0; l < left.size(); ++l) {
-        if (fit.logs()[l].held_back && squared_error(left[l]) > squared_error(fit.residual()[l])) {
+        if (fit.logs()[l].held_back && squared_error(left[l], joints) > squared_error(fit.residual()[l], joints)) {
             return true;
         }
     }
@@ -82,6 +95,9 @@ std::string objection_to(const trace_fit& fit, const tried_candidate& tried) {
     }
     if (raises_an_error(fit, evidence)) {
         return "raises the error of a log it was not fitted to";
+    }
+    if (is_negligible(evidence)) {
+        return "smaller than what sampling makes";
     }
     if (!is_plausible(fit, evidence)) {
         return "larger than the torque of its joint";
@@ -129,14 +145,16 @@ trace_fit without(const trace_fit& fit, std::size_t term) {
 effect_survey survey(const trace_fit& fit, const std::vector<candidate_pointer>& candidates) {
     effect_survey result;
     std::vector<effect_evidence> found(candidates.size());
-    parallel_for(candidates.size(), [&](std::size_t i) { found[i] = search_shape(fit, candidates[i], promising); });
+    for_each_on_all_cores(candidates.size(),
+                          [&](std::size_t i) { found[i] = search_shape(fit, candidates[i], promising); });
     for (const effect_evidence& evidence : found) {
         result.tests += evidence.shapes_tried;
     }
     result.candidates.resize(found.size());
-    parallel_for(found.size(), [&](std::size_t i) {
+    for_each_on_all_cores(found.size(), [&](std::size_t i) {
         tried_candidate& tried = result.candidates[i];
-        tried.p_value = corrected(found[i].p_value, result.tests);
+        const double own = corrected(found[i].p_value, found[i].shapes_tried);
+        tried.p_value = corrected(own, static_cast<double>(candidates.size()));
         if (tried.p_value < promising) {
             test_on_held_back(fit, found[i]);
         }
@@ -144,7 +162,7 @@ effect_survey survey(const trace_fit& fit, const std::vector<candidate_pointer>&
         tried.objection = objection_to(fit, tried);
     });
     for (const tried_candidate& tried : result.candidates) {
-        if (tried.evidence.outside > 0.0 && tried.evidence.outside < 1e-5) {
+        if (tried.evidence.within_span) {
             result.within_span.push_back(place_of(*tried.evidence.term.candidate));
         }
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace idim {
@@ -23,11 +24,11 @@ Eigen::VectorXd earlier(const Eigen::Ref<const Eigen::VectorXd>& values, double 
 
 class delayed_torque final : public effect_candidate {
   public:
-    delayed_torque(std::vector<int> all, double at) : at_(at) {
+    delayed_torque(std::vector<int> all, double at, double period) : at_(at), period_(period) {
         effect = "torque_delay";
         joints = all;
         touched = std::move(all);
-        linear = {{"Td", "s"}};
+        linear = {{"Td", "s", -std::numeric_limits<double>::infinity(), period}};
         role = column_role::shape;
     }
     Eigen::MatrixXd rows(const traced_log& log, int joint, const Eigen::VectorXd&) const override {
@@ -35,11 +36,12 @@ class delayed_torque final : public effect_candidate {
         return rows_of(log, joint, (earlier(tau, at_, log.samples.rate) - tau) / at_);
     }
     candidate_pointer relinearised(const Eigen::VectorXd& found) const override {
-        return found[0] != 0.0 ? std::make_shared<delayed_torque>(joints, found[0]) : nullptr;
+        return found[0] != 0.0 ? std::make_shared<delayed_torque>(joints, found[0], period_) : nullptr;
     }
 
   private:
     double at_;
+    double period_;
 };
 
 class scaled_torque final : public effect_candidate {
@@ -94,7 +96,12 @@ class soft_transmission final : public effect_candidate {
         q.col(joint_) -= twist;
         qd.col(joint_) -= twist_rate;
         qdd.col(joint_) -= twist_acceleration;
-        const idim_samples link = {count,      count, q.data(), qd.data(), qdd.data(), motor.t.data(),
+        const idim_samples link = {count,
+                                   count,
+                                   q.data(),
+                                   qd.data(),
+                                   qdd.data(),
+                                   motor.t.data(),
                                    motor.temp.size() > 0 ? motor.temp.data() : nullptr};
         Eigen::MatrixXd tau(motor.samples(), model_.dof);
         model_.inverse_dynamics_batch(&link, rigid_.data(), tau.data(), count);
@@ -116,8 +123,8 @@ class soft_transmission final : public effect_candidate {
 
 }  // namespace
 
-candidate_pointer delay_candidate(int joint, double at) {
-    return std::make_shared<delayed_torque>(std::vector<int>{joint}, at);
+candidate_pointer delay_candidate(int joint, double at, double period) {
+    return std::make_shared<delayed_torque>(std::vector<int>{joint}, at, period);
 }
 
 candidate_pointer alignment_candidate(int joints, double at) {
@@ -125,7 +132,7 @@ candidate_pointer alignment_candidate(int joints, double at) {
     for (int j = 0; j < joints; ++j) {
         all.push_back(j);
     }
-    return std::make_shared<delayed_torque>(std::move(all), at);
+    return std::make_shared<delayed_torque>(std::move(all), at, 0.0);
 }
 
 candidate_pointer gain_candidate(int joint) {

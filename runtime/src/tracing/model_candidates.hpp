@@ -8,8 +8,9 @@
 namespace idim {
 
 /// The torque of joint j measured late by Td: the column is the secant (tau(t - at) - tau(t)) / at of the present
-/// model's torque, its coefficient Td.
-candidate_pointer delay_candidate(int joint, double at);
+/// model's torque, its coefficient Td. A delay below the sampling period of the log tells of the sampling, not of the
+/// robot.
+candidate_pointer delay_candidate(int joint, double at, double period);
 
 /// All joints' torque late by the same time, a part of a sample: a drive that holds its command for a period, a logger
 /// that reads torque and position one after the other. A nuisance, no effect.
@@ -18,8 +19,8 @@ candidate_pointer alignment_candidate(int joints, double at);
 /// The torque of joint j scaled by 1 + Ke: the column is the present model's torque.
 candidate_pointer gain_candidate(int joint);
 
-/// A transmission of stiffness K = 1 / c at joint j: the link lags its motor by c times the torque that passes. The column
-/// is the secant in c of the rigid links' torques at all joints.
+/// A transmission of stiffness K = 1 / c at joint j: the link lags its motor by c times the torque that passes. The
+/// column is the secant in c of the rigid links' torques at all joints.
 candidate_pointer elasticity_candidate(const idim_model_interface& model, const Eigen::VectorXd& chi, int joint,
                                        double at);
 

@@ -9,10 +9,10 @@ namespace idim {
 
 namespace {
 
-constexpr double clear_of_motion = 2.0;    ///< bands of the rows
-constexpr double below_nyquist = 0.8;      ///< of half the rate
+constexpr double clear_of_motion = 2.0;  ///< bands of the rows
+constexpr double below_nyquist = 0.8;    ///< of half the rate
 constexpr std::size_t fewest_bins = 8;
-constexpr Eigen::Index shortest = 64;      ///< samples
+constexpr Eigen::Index shortest = 64;  ///< samples
 
 /// Densities of one joint's torque above the motion.
 void append_densities(const traced_log& log, Eigen::Index joint, std::vector<double>& densities) {

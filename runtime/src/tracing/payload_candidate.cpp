@@ -37,8 +37,13 @@ Eigen::MatrixXd regrouping_of(const idim_model_interface& model, int joint) {
     return B;
 }
 
-/// Sums over the rows up to each of ascending times: Gram matrix of the columns, their part in the span of the model, and
-/// their product with the residual.
+/// Ten columns that are nearly the model's own would take any size: what an interval leaves outside the span is more.
+constexpr double least_of_a_load = 1e-2;
+/// A load is on for at least, and off for at least, this part of a log.
+constexpr double shortest_share = 0.05;
+
+/// Sums over the rows up to each of ascending times: Gram matrix of the columns, their part in the span of the model,
+/// and their product with the residual.
 struct running_sums {
     std::vector<Eigen::MatrixXd> gram;      ///< m x m
     std::vector<Eigen::MatrixXd> on_basis;  ///< k x m
@@ -80,8 +85,9 @@ double gain_between(const running_sums& sums, std::size_t from, std::size_t to) 
     const Eigen::VectorXd along = eigen.eigenvectors().transpose() * inverse.cwiseProduct(g);
     double gain = 0.0;
     for (Eigen::Index i = 0; i < along.size(); ++i) {
-        // An interval makes columns that no longer lie in the span of the model: what is left is no rounding.
-        gain += eigen.eigenvalues()[i] > 1e-6 ? along[i] * along[i] / eigen.eigenvalues()[i] : 0.0;
+        gain += eigen.eigenvalues()[i] > least_of_a_load * least_of_a_load
+                    ? along[i] * along[i] / eigen.eigenvalues()[i]
+                    : 0.0;
     }
     return gain;
 }
@@ -97,6 +103,7 @@ class part_time_load final : public effect_candidate {
         for (std::size_t c = 0; c < inertial.size(); ++c) {
             linear.push_back({"P" + std::string(inertial[c]), inertial_units[c]});
         }
+        least_outside = least_of_a_load;
         shape = {{"t0", "s", -1e9, 1e9}, {"t1", "s", -1e9, 1e9}};
     }
 
@@ -127,7 +134,8 @@ class part_time_load final : public effect_candidate {
         for (int i = 0; i <= coarse; ++i) {
             times.push_back(first + i * step + (i == coarse ? 1e-9 : 0.0));
         }
-        std::pair<double, double> best = best_interval(fit, times, 1e18);
+        const double whole = last - first;
+        std::pair<double, double> best = best_interval(fit, times, whole, 1e18);
         for (int level = 0; level < 2; ++level) {
             times.clear();
             for (int i = -fine; i <= fine; ++i) {
@@ -135,7 +143,7 @@ class part_time_load final : public effect_candidate {
                 times.push_back(best.second + i * step / fine);
             }
             std::sort(times.begin(), times.end());
-            best = best_interval(fit, times, 1.01 * step, best);
+            best = best_interval(fit, times, whole, 1.01 * step, best);
             step /= fine;
         }
         return {Eigen::Vector2d(best.first, best.second)};
@@ -148,14 +156,16 @@ class part_time_load final : public effect_candidate {
     static constexpr int fine = 12;
 
     /// The pair of times with the largest gain, each within `reach` of `near`.
-    std::pair<double, double> best_interval(const trace_fit& fit, const std::vector<double>& times, double reach,
-                                            std::pair<double, double> near = {0.0, 0.0}) const {
+    std::pair<double, double> best_interval(const trace_fit& fit, const std::vector<double>& times, double whole,
+                                            double reach, std::pair<double, double> near = {0.0, 0.0}) const {
         const running_sums sums = sums_at(fit, times);
         std::pair<double, double> best = {times.front(), times.back()};
         double most = -1.0;
         for (std::size_t begin = 0; begin < times.size(); ++begin) {
             for (std::size_t end = begin + 1; end < times.size(); ++end) {
-                if (std::abs(times[begin] - near.first) > reach || std::abs(times[end] - near.second) > reach) {
+                const double duration = times[end] - times[begin];
+                if (std::abs(times[begin] - near.first) > reach || std::abs(times[end] - near.second) > reach ||
+                    duration < shortest_share * whole || duration > (1.0 - shortest_share) * whole) {
                     continue;
                 }
                 const double gain = gain_between(sums, begin, end);

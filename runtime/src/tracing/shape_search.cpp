@@ -8,7 +8,7 @@ namespace idim {
 
 namespace {
 
-constexpr double grid_step = 0.8;     ///< sine of the angle between the columns of neighbours, about
+constexpr double grid_step = 0.8;  ///< sine of the angle between the columns of neighbours, about
 constexpr int most_points = 3000;
 constexpr std::size_t peaks = 3;
 constexpr int golden_steps = 14;

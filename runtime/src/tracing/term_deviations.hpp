@@ -4,8 +4,9 @@
 
 namespace idim {
 
-/// Coefficients of a term, linear ones first, then shapes, with deviations robust to the autocorrelation of the residual
-/// (sandwich.hpp): the regressor gets a column for each shape, the derivative of the term's torque with respect to it.
+/// Coefficients of a term, linear ones first, then shapes, with deviations robust to the autocorrelation of the
+/// residual (sandwich.hpp): the regressor gets a column for each shape, the derivative of the term's torque with
+/// respect to it.
 struct term_values {
     Eigen::VectorXd value;
     Eigen::VectorXd deviation;

@@ -12,9 +12,6 @@ namespace idim {
 namespace {
 
 constexpr double excited = 1e-8;  ///< singular values below this part of the largest are taken as not excited
-/// A direction of a candidate's scaled columns whose norm outside the model's span is below this lies within it: a
-/// drive gain shows only in 1e-4 of its column, rounding and filter ends in 1e-7.
-constexpr double outside_span = 1e-5;
 constexpr int noise_passes = 3;
 
 /// Square triangle of A below what was factored before.
@@ -96,8 +93,8 @@ void trace_fit::solve() {
                                              Eigen::ComputeThinU | Eigen::ComputeThinV);
     const Eigen::VectorXd& s = svd.singularValues();
     const Eigen::Index rank = (s.array() > excited * s[0]).count();
-    basis_scale_ = norm.cwiseInverse().asDiagonal() * svd.matrixV().leftCols(rank) *
-                   s.head(rank).cwiseInverse().asDiagonal();
+    basis_scale_ =
+        norm.cwiseInverse().asDiagonal() * svd.matrixV().leftCols(rank) * s.head(rank).cwiseInverse().asDiagonal();
     all_ = basis_scale_ * (svd.matrixU().leftCols(rank).transpose() * R.col(p));
     basis_.resize(logs_->size());
     residual_.resize(logs_->size());
@@ -158,7 +155,8 @@ projected_columns trace_fit::project(const effect_candidate& candidate, const Ei
         const Eigen::Index place = candidate.per_log ? m * static_cast<Eigen::Index>(l) : 0;
         for (const int j : candidate.touched) {
             const auto joint = static_cast<std::size_t>(j);
-            Eigen::MatrixXd X = quick ? candidate.quick_rows((*logs_)[l], j, shape) : candidate.rows((*logs_)[l], j, shape);
+            Eigen::MatrixXd X =
+                quick ? candidate.quick_rows((*logs_)[l], j, shape) : candidate.rows((*logs_)[l], j, shape);
             X = weight_[l][joint].asDiagonal() * X;
             found.on_basis.middleCols(place, m) += basis_[l][joint].transpose() * X;
             gram.block(place, place, m, m) += X.transpose() * X;
@@ -168,19 +166,18 @@ projected_columns trace_fit::project(const effect_candidate& candidate, const Ei
     }
     found.scale = gram.diagonal().cwiseSqrt();
     const Eigen::VectorXd inverse = (found.scale.array() > 0.0).select(found.scale.cwiseInverse(), 0.0);
-    const Eigen::MatrixXd outside = inverse.asDiagonal() *
-                                    (gram - found.on_basis.transpose() * found.on_basis) * inverse.asDiagonal();
+    const Eigen::MatrixXd outside =
+        inverse.asDiagonal() * (gram - found.on_basis.transpose() * found.on_basis) * inverse.asDiagonal();
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(outside);
     const Eigen::VectorXd g = eigen.eigenvectors().transpose() * (inverse.asDiagonal() * on_residual);
     Eigen::VectorXd along = Eigen::VectorXd::Zero(g.size());
     for (Eigen::Index i = 0; i < g.size(); ++i) {
-        if (eigen.eigenvalues()[i] > outside_span * outside_span) {
+        if (eigen.eigenvalues()[i] > candidate.least_outside * candidate.least_outside) {
             along[i] = g[i] / eigen.eigenvalues()[i];
             found.gain += g[i] * along[i];
             ++found.rank;
         }
     }
-    found.outside = std::sqrt(std::max(0.0, eigen.eigenvalues().maxCoeff()));
     found.coefficient = inverse.asDiagonal() * (eigen.eigenvectors() * along);
     return found;
 }
@@ -240,8 +237,8 @@ row_noise trace_fit::estimated_noise() const {
 trace_fit fit_with_own_noise(const std::vector<traced_log>& logs, const std::vector<effect_term>& terms,
                              const row_noise* start) {
     const auto joints = static_cast<Eigen::Index>(logs.front().rows.W.size());
-    row_noise noise = start != nullptr ? *start
-                                       : row_noise{Eigen::VectorXd::Ones(joints), Eigen::VectorXd::Ones(joints)};
+    row_noise noise =
+        start != nullptr ? *start : row_noise{Eigen::VectorXd::Ones(joints), Eigen::VectorXd::Ones(joints)};
     for (int pass = 0; pass < noise_passes; ++pass) {
         noise = trace_fit(logs, terms, noise).estimated_noise();
     }

@@ -28,7 +28,6 @@ struct projected_columns {
     Eigen::VectorXd coefficient;  ///< [m] least squares, 0 in directions that lie within the span of the model
     double gain = 0.0;            ///< decrease of the weighted squared residual
     int rank = 0;                 ///< directions outside the span of the model
-    double outside = 0.0;         ///< largest share of a column's norm outside that span
 };
 
 /// Least squares of the rows of the logs that are not held back, columns of the model and of terms side by side,
@@ -69,9 +68,13 @@ class trace_fit {
     Eigen::VectorXd basis_times(const Eigen::VectorXd& k) const { return basis_scale_ * k; }
 
     /// All columns [W X] of one joint in one log.
-    const Eigen::MatrixXd& columns(std::size_t log, int joint) const { return columns_[log][static_cast<std::size_t>(joint)]; }
+    const Eigen::MatrixXd& columns(std::size_t log, int joint) const {
+        return columns_[log][static_cast<std::size_t>(joint)];
+    }
     /// Orthonormal columns that span the weighted rows of one joint in one fitted log, rows x k.
-    const Eigen::MatrixXd& basis(std::size_t log, int joint) const { return basis_[log][static_cast<std::size_t>(joint)]; }
+    const Eigen::MatrixXd& basis(std::size_t log, int joint) const {
+        return basis_[log][static_cast<std::size_t>(joint)];
+    }
     /// All coefficients, those of the model first.
     const Eigen::VectorXd& all_coefficients() const { return all_; }
 

@@ -17,10 +17,10 @@ struct traced_log {
     filtered_samples samples;
     observation_block rows;
     int decimation = 1;
-    bool held_back = false;            ///< never used to fit
-    std::vector<row_flags> reversal;   ///< per joint, one flag a row
-    Eigen::MatrixXd tau_model;         ///< torque of the present model at the full rate, samples x n [N*m or N]
-    Eigen::MatrixXd tau_rigid;         ///< the part of the rigid links, what the transmissions carry
+    bool held_back = false;           ///< never used to fit
+    std::vector<row_flags> reversal;  ///< per joint, one flag a row
+    Eigen::MatrixXd tau_model;        ///< torque of the present model at the full rate, samples x n [N*m or N]
+    Eigen::MatrixXd tau_rigid;        ///< the part of the rigid links, what the transmissions carry
 };
 
 /// Filters columns at the full rate (samples x m) as the torque is, and takes the rows that `joint` has.

@@ -1,0 +1,85 @@
+#include <fmt/format.h>
+
+#include "dynamics/effect_shape.hpp"
+#include "dynamics/effect_terms.hpp"
+
+namespace idim::generator {
+
+namespace {
+
+using GiNaC::ex;
+
+drive_model& drive_at(std::vector<drive_model>& drives, const kinematic_tree& tree, const effect_use& use, int joint) {
+    const kinematic_joint& at = tree.joints[static_cast<std::size_t>(joint)];
+    if (at.coordinate < 0) {
+        throw input_error(
+            use.where,
+            fmt::format("effect {} acts on joint {}, expected joints with a drive of their own", use.effect, at.name));
+    }
+    return drives[static_cast<std::size_t>(at.coordinate)];
+}
+
+void set_gain(const effect_use& use, const effect_description& effect, drive_model& drive) {
+    const double error = shape_value(use, effect, "Ke");
+    if (!(error > -1.0)) {
+        throw input_error(use.where, fmt::format("effect {}: Ke = {}, expected more than -1", effect.name, error));
+    }
+    drive.gain *= 1 + exact_decimal(error, use.where);
+}
+
+void set_stiffness(const effect_use& use, const effect_description& effect, int coordinate, drive_model& drive) {
+    const double stiffness = shape_value(use, effect, "K");
+    if (!(stiffness > 0.0)) {
+        throw input_error(use.where, fmt::format("effect {}: K = {}, expected more than 0", effect.name, stiffness));
+    }
+    drive.stiffness = stiffness;
+    drive.motor = {GiNaC::symbol(fmt::format("qm{}", coordinate + 1)),
+                   GiNaC::symbol(fmt::format("qmd{}", coordinate + 1)),
+                   GiNaC::symbol(fmt::format("qmdd{}", coordinate + 1))};
+}
+
+}  // namespace
+
+std::vector<drive_model> read_drives(const kinematic_tree& tree, const std::vector<effect_use>& uses,
+                                     const std::vector<effect_description>& descriptions) {
+    std::vector<drive_model> drives(static_cast<std::size_t>(tree.dof()));
+    for (std::size_t u = 0; u < uses.size(); ++u) {
+        const effect_description& effect = descriptions[u];
+        for (const int joint : uses[u].joints) {
+            if (effect.kind == effect_kind::gain) {
+                set_gain(uses[u], effect, drive_at(drives, tree, uses[u], joint));
+            } else if (effect.kind == effect_kind::delay) {
+                drive_at(drives, tree, uses[u], joint).delay += shape_value(uses[u], effect, "Td");
+            } else if (effect.kind == effect_kind::elasticity) {
+                drive_model& drive = drive_at(drives, tree, uses[u], joint);
+                set_stiffness(uses[u], effect, tree.joints[static_cast<std::size_t>(joint)].coordinate, drive);
+            }
+        }
+    }
+    return drives;
+}
+
+// The turned vector takes the place of the declared one as numbers of sixty digits: gravity enters the dependences of
+// parameters by its direction alone, and a component that the turn leaves zero stays exactly zero.
+void tilt_gravity(const std::vector<effect_use>& uses, const std::vector<effect_description>& descriptions,
+                  kinematic_tree& tree) {
+    for (std::size_t u = 0; u < uses.size(); ++u) {
+        if (descriptions[u].kind != effect_kind::tilt) {
+            continue;
+        }
+        const auto angle = [&](const char* shape) {
+            return exact_decimal(shape_value(uses[u], descriptions[u], shape), uses[u].where);
+        };
+        const auto number = [&](const ex& value) -> ex { return constant_value(value, uses[u].where); };
+        const ex cx = number(GiNaC::cos(angle("tilt_x")));
+        const ex sx = number(GiNaC::sin(angle("tilt_x")));
+        const ex cy = number(GiNaC::cos(angle("tilt_y")));
+        const ex sy = number(GiNaC::sin(angle("tilt_y")));
+        const auto [x, y, z] = tree.gravity;
+        const ex turned_y = cx * y - sx * z;
+        const ex turned_z = sx * y + cx * z;
+        tree.gravity = {(cy * x + sy * turned_z).expand(), turned_y.expand(), (-sy * x + cy * turned_z).expand()};
+    }
+}
+
+}  // namespace idim::generator

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "idim/instrument_test.hpp"
+#include "idim/loop_identification.hpp"
+#include "idim/residual_test.hpp"
+#include "simulated_loop.hpp"
+
+namespace idim::cli {
+
+/// Names of all methods, those that do not simulate first.
+const std::vector<std::string>& method_names();
+
+/// Whether the method simulates the closed loop.
+bool simulates(const std::string& method);
+
+/// How the methods that simulate are to work.
+struct method_request {
+    loop_request loop;
+    std::string start = "ls";  ///< ls, regular, or a file of parameters
+    loop_options options;
+};
+
+/// What one method made of the rows.
+struct method_result {
+    std::string method;
+    estimate fit;
+    std::vector<residual_test> residual;         ///< per joint; empty without parameters
+    std::optional<instrument_test> instruments;  ///< of iv
+    std::string start;                           ///< where the iterations began, one phrase; empty without simulation
+    std::string assumption;                      ///< of the control law; empty if the declared one was simulated
+};
+
+/// Runs methods on the logs of one robot. What it is given must outlive it.
+class method_runner {
+  public:
+    method_runner(const loaded_robot& robot, const std::string& robot_file, const std::vector<idim::log>& logs,
+                  const filter_choice& filter, const method_request& request);
+
+    /// Rows of the methods that do not simulate; where they depend on the parameters (fit_rows) those of the weighted
+    /// least squares estimate. Throws data_error if they do not settle.
+    observation all_rows() const;
+    /// Rows without the transient of the simulated loop, which methods are to be compared on. Throws data_error if
+    /// least squares, which they start from, finds a parameter that is not excited.
+    observation steady_rows();
+    /// `rows`: steady_rows() for a method that simulates, either for the others.
+    method_result run(const std::string& method, const observation& rows);
+
+  private:
+    struct start_point {
+        Eigen::VectorXd chi;
+        std::string name;
+    };
+
+    const simulated_loops& loops();
+    start_point start_for(const observation& rows) const;
+    loop_estimate simulate(const std::string& method, const observation& rows, const start_point& start);
+
+    const loaded_robot& robot_;
+    const std::string& robot_file_;
+    const std::vector<idim::log>& logs_;
+    const filter_choice& filter_;
+    const method_request& request_;
+    loop_experiment experiment_;
+    std::optional<simulated_loops> loops_;
+};
+
+}  // namespace idim::cli

@@ -1,0 +1,271 @@
+#include "idim/recorded_states.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "idim/zero_phase_filter.hpp"
+
+namespace idim {
+
+namespace {
+
+double delay_of(const idim_model_interface& model, int joint) {
+    return model.torque_delay == nullptr ? 0.0 : model.torque_delay[joint];
+}
+
+double stiffness_of(const idim_model_interface& model, int joint) {
+    return model.joint_stiffness == nullptr ? 0.0 : model.joint_stiffness[joint];
+}
+
+/// Whether the model reads anything but motion, time and temperatures.
+bool needs_completion(const idim_model_interface& model) {
+    return model.n_states > 0 || model.needs_rigid_torque != 0 || has_soft_joint(model);
+}
+
+/// Weights of four neighbouring samples at a share of the step between the two in the middle (Lagrange).
+std::array<double, 4> cubic_weights(double share) {
+    const double before = share + 1.0;
+    const double after = 1.0 - share;
+    const double last = 2.0 - share;
+    return {-share * after * last / 6.0, before * after * last / 2.0, before * share * last / 2.0,
+            -before * share * after / 6.0};
+}
+
+Eigen::MatrixXd shifted(const Eigen::MatrixXd& values, double samples) {
+    const Eigen::Index n = values.rows();
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n, values.cols());
+    const double floor = std::floor(-samples);
+    const std::array<double, 4> weights = cubic_weights(-samples - floor);
+    for (Eigen::Index k = 0; k < n; ++k) {
+        for (int i = 0; i < 4; ++i) {
+            const double at = std::clamp(static_cast<double>(k + i - 1) + floor, 0.0, static_cast<double>(n - 1));
+            result.row(k) += weights[static_cast<std::size_t>(i)] * values.row(static_cast<Eigen::Index>(at));
+        }
+    }
+    return result;
+}
+
+/// Central differences, one-sided at the ends.
+Eigen::VectorXd differences(const Eigen::VectorXd& x, double rate) {
+    const Eigen::Index n = x.size();
+    Eigen::VectorXd d = Eigen::VectorXd::Zero(n);
+    if (n > 2) {
+        d.segment(1, n - 2) = 0.5 * rate * (x.tail(n - 2) - x.head(n - 2));
+        d[0] = rate * (x[1] - x[0]);
+        d[n - 1] = rate * (x[n - 1] - x[n - 2]);
+    }
+    return d;
+}
+
+Eigen::MatrixXd rigid_torques(const idim_model_interface& model, const filtered_samples& samples,
+                              const Eigen::VectorXd& chi) {
+    Eigen::MatrixXd torque(samples.samples(), model.dof);
+    Eigen::VectorXd at(model.dof);
+    for (Eigen::Index k = 0; k < samples.samples(); ++k) {
+        const Eigen::VectorXd q = samples.q.row(k);
+        const Eigen::VectorXd qd = samples.qd.row(k);
+        const Eigen::VectorXd qdd = samples.qdd.row(k);
+        model.rigid_torque(q.data(), qd.data(), qdd.data(), samples.t[k], chi.data(), at.data());
+        torque.row(k) = at;
+    }
+    return torque;
+}
+
+/// Low-pass for the twist of a transmission, somewhat below the frequency at which the link swings behind a motor that
+/// stands still: there the fixed point contracts, and from there on upward no motion of the link follows from that of
+/// the motor. Nothing where the parameters are not those of a link that can swing.
+std::optional<second_order_sections> twist_filter(const idim_model_interface& model, const filtered_samples& motor,
+                                                  const Eigen::VectorXd& chi, int joint) {
+    constexpr Eigen::Index looks = 64;
+    constexpr double share_of_swing = 0.6;
+    constexpr int order = 6;
+    Eigen::MatrixXd M(model.dof, model.dof);
+    double inertia = 0.0;
+    for (Eigen::Index k = 0; k < motor.samples(); k += std::max<Eigen::Index>(1, motor.samples() / looks)) {
+        const Eigen::VectorXd q = motor.q.row(k);
+        model.mass_matrix(q.data(), chi.data(), M.data());
+        inertia = std::max(inertia, M(joint, joint));
+    }
+    if (!(inertia > 0.0)) {
+        return std::nullopt;
+    }
+    const double swing = std::sqrt(stiffness_of(model, joint) / inertia) / (2.0 * M_PI);
+    return butterworth_lowpass(order, std::min(0.5, share_of_swing * swing / (0.5 * motor.rate)));
+}
+
+using twist_filters = std::vector<std::optional<second_order_sections>>;
+
+/// Puts the links as far behind their motors as some torques twist the transmissions.
+void twist(const idim_model_interface& model, const filtered_samples& motor, const Eigen::MatrixXd& torque,
+           const twist_filters& filters, filtered_samples& link) {
+    for (int j = 0; j < model.dof; ++j) {
+        const auto& filter = filters[static_cast<std::size_t>(j)];
+        if (filter && motor.samples() > padding(*filter)) {
+            const Eigen::VectorXd angle = zero_phase_filter(*filter, torque.col(j)) / stiffness_of(model, j);
+            const Eigen::VectorXd rate = differences(angle, motor.rate);
+            link.q.col(j) = motor.q.col(j) - angle;
+            link.qd.col(j) = motor.qd.col(j) - rate;
+            link.qdd.col(j) = motor.qdd.col(j) - differences(rate, motor.rate);
+        }
+    }
+}
+
+/// Puts the motion of the links in the place of that of the motors.
+void follow_links(const idim_model_interface& model, const filtered_samples& motor, const Eigen::VectorXd& chi,
+                  filtered_samples& link) {
+    constexpr int most_steps = 60;
+    constexpr double settled = 1e-11;
+    twist_filters filters;
+    for (int j = 0; j < model.dof; ++j) {
+        filters.push_back(stiffness_of(model, j) > 0.0 ? twist_filter(model, motor, chi, j) : std::nullopt);
+    }
+    double change = 1.0;
+    for (int step = 0; step < most_steps && change > settled; ++step) {
+        const Eigen::MatrixXd before = link.q;
+        twist(model, motor, rigid_torques(model, link, chi), filters, link);
+        change = (link.q - before).cwiseAbs().maxCoeff() / std::max(1.0, motor.q.cwiseAbs().maxCoeff());
+    }
+}
+
+/// A first guess without parameters: the measured torque twists the transmissions. Rotors and links could not be told
+/// apart if they moved alike.
+void follow_measured_torque(const idim_model_interface& model, const filtered_samples& motor, filtered_samples& link) {
+    constexpr int order = 6;
+    constexpr double part_of_nyquist = 0.05;  // derivatives of measured torques are of use at low frequencies only
+    twist_filters filters;
+    for (int j = 0; j < model.dof; ++j) {
+        filters.push_back(stiffness_of(model, j) > 0.0 ? std::optional(butterworth_lowpass(order, part_of_nyquist))
+                                                       : std::nullopt);
+    }
+    twist(model, motor, motor.tau, filters, link);
+}
+
+/// Runs the states along the samples; `signals` holds everything else.
+void run_states(const idim_model_interface& model, const filtered_samples& samples, Eigen::MatrixXd& signals) {
+    const auto states = Eigen::seqN(Eigen::Index{model.dof}, Eigen::Index{model.n_states});
+    Eigen::VectorXd state(model.n_states);
+    for (Eigen::Index k = 0; k < samples.samples(); ++k) {
+        const Eigen::VectorXd q = samples.q.row(k);
+        const Eigen::VectorXd qd = samples.qd.row(k);
+        const Eigen::VectorXd qdd = samples.qdd.row(k);
+        if (k == 0) {
+            const Eigen::VectorXd at = signals.row(k);
+            model.first_states(q.data(), qd.data(), qdd.data(), samples.t[k], at.data(), state.data());
+        }
+        signals(k, states) = state.transpose();
+        const Eigen::VectorXd at = signals.row(k);
+        model.next_states(q.data(), qd.data(), qdd.data(), samples.t[k], at.data(), 1.0 / samples.rate, state.data());
+    }
+}
+
+}  // namespace
+
+bool has_soft_joint(const idim_model_interface& model) {
+    bool soft = false;
+    for (int j = 0; j < model.dof; ++j) {
+        soft = soft || stiffness_of(model, j) > 0.0;
+    }
+    return soft;
+}
+
+bool depends_on_parameters(const idim_model_interface& model) {
+    return model.needs_rigid_torque != 0 || has_soft_joint(model);
+}
+
+filtered_samples earlier(const filtered_samples& samples, double shift) {
+    filtered_samples result = samples;
+    result.t.array() -= shift;
+    for (const auto signal :
+         {&filtered_samples::q, &filtered_samples::qd, &filtered_samples::qdd, &filtered_samples::temp}) {
+        if ((samples.*signal).size() > 0) {
+            result.*signal = shifted(samples.*signal, shift * samples.rate);
+        }
+    }
+    return result;
+}
+
+filtered_samples completed(const idim_model_interface& model, const filtered_samples& samples,
+                           const Eigen::VectorXd& chi) {
+    filtered_samples result = samples;
+    const Eigen::Index n = model.dof;
+    Eigen::MatrixXd signals = Eigen::MatrixXd::Zero(samples.samples(), model.n_signals);
+    if (samples.temp.size() > 0) {
+        signals.leftCols(n) = samples.temp;
+    }
+    Eigen::Index place = n + model.n_states;
+    if (has_soft_joint(model)) {
+        signals.middleCols(place, n) = samples.q;
+        signals.middleCols(place + n, n) = samples.qd;
+        signals.middleCols(place + 2 * n, n) = samples.qdd;
+        place += 3 * n;
+        if (chi.size() > 0) {
+            follow_links(model, samples, chi, result);
+        } else if (samples.tau.size() > 0) {
+            follow_measured_torque(model, samples, result);
+        }
+    }
+    if (model.needs_rigid_torque != 0 && chi.size() > 0) {
+        signals.middleCols(place, n) = rigid_torques(model, result, chi);
+    } else if (model.needs_rigid_torque != 0 && samples.tau.size() > 0) {
+        signals.middleCols(place, n) = samples.tau;
+    }
+    if (model.n_states > 0) {
+        run_states(model, result, signals);
+    }
+    result.temp = std::move(signals);
+    return result;
+}
+
+recorded_states::recorded_states(const idim_model_interface& model, const filtered_samples& samples,
+                                 const Eigen::VectorXd& chi)
+    : measured_(samples) {
+    std::vector<double> delays;
+    for (int j = 0; j < model.dof; ++j) {
+        const double delay = delay_of(model, j);
+        if (delay == 0.0 && !needs_completion(model)) {
+            place_.push_back(-1);
+            continue;
+        }
+        const auto known = std::find(delays.begin(), delays.end(), delay);
+        place_.push_back(static_cast<int>(known - delays.begin()));
+        if (known == delays.end()) {
+            delays.push_back(delay);
+            const filtered_samples before = delay == 0.0 ? samples : earlier(samples, delay);
+            states_.push_back(needs_completion(model) ? completed(model, before, chi) : before);
+        }
+    }
+}
+
+const filtered_samples& recorded_states::of(int joint) const {
+    const int place = place_[static_cast<std::size_t>(joint)];
+    return place < 0 ? measured_ : states_[static_cast<std::size_t>(place)];
+}
+
+Eigen::MatrixXd model_torques(const idim_model_interface& model, const filtered_samples& samples,
+                              const Eigen::VectorXd& chi) {
+    const recorded_states states(model, samples, chi);
+    const auto count = static_cast<std::size_t>(samples.samples());
+    Eigen::MatrixXd torques(samples.samples(), model.dof);
+    const filtered_samples* last = nullptr;
+    Eigen::MatrixXd all(samples.samples(), model.dof);
+    for (int j = 0; j < model.dof; ++j) {
+        const filtered_samples& at = states.of(j);
+        if (&at != last) {
+            const idim_samples block = {count,
+                                        count,
+                                        at.q.data(),
+                                        at.qd.data(),
+                                        at.qdd.data(),
+                                        at.t.data(),
+                                        at.temp.size() > 0 ? at.temp.data() : nullptr};
+            model.inverse_dynamics_batch(&block, chi.data(), all.data(), count);
+            last = &at;
+        }
+        torques.col(j) = all.col(j);
+    }
+    return torques;
+}
+
+}  // namespace idim
