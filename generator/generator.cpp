@@ -34,8 +34,7 @@ base_report report(const robot_model& model) {
     result.robot = model.description.name;
     result.notes = model.description.notes;
     for (const base_parameter& base : model.base.parameters) {
-        result.parameters.push_back(
-            {base.name, base.unit, base.formula, model.parameters.all[base.standard].per_log});
+        result.parameters.push_back({base.name, base.unit, base.formula, model.parameters.all[base.standard].per_log});
     }
     for (const std::size_t p : model.base.without_effect) {
         result.without_effect.push_back(model.parameters.all[p].name);
@@ -51,10 +50,10 @@ base_report report(const robot_model& model) {
     return result;
 }
 
-/// Of what the model depends on: the description as read (comments and layout left out), its effects, whether it has
-/// derivatives, and the version.
+/// Of what the model depends on: the description as read (comments and layout left out), its effects, what it was made
+/// cheap for, whether it has derivatives, and the version.
 std::string hash_inputs(const robot_model& model, const generation_options& options) {
-    std::string text = std::string("idim ") + version() + "\n" + to_string(model.description);
+    std::string text = fmt::format("idim {}\ncost {}\n{}", version(), options.cost, to_string(model.description));
     text += options.derivatives ? "derivatives\n" : "";
     for (const effect_description& effect : model.effects) {
         text += fmt::format("effect {} {} {} {}\n", effect.name, static_cast<int>(effect.scope), effect.acts_on_both,
@@ -99,16 +98,18 @@ generated_model generate(const std::string& robot_file, const std::string& templ
     result.robot = model.description.name;
     result.target = options.target;
     result.base = report(model);
+    result.cost = options.cost;
     result.input_hash = hash_inputs(model, options);
+    const cost_target target = cost_target_of(options.cost);
     model_operations counts;
-    const template_context context =
-        build_context(model, {version(), result.input_hash}, options.derivatives, languages_of(options.target), counts);
+    const template_context context = build_context(model, {version(), result.input_hash, target}, options.derivatives,
+                                                   languages_of(options.target), counts);
     result.joints = context.joints;
     result.operations = table(counts);
     result.files = render(context, templates + "/" + options.target);
     result.files.push_back(manifest_of(model, context, result));
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    result.rigid_operations = model.description.effects.empty() ? result.operations : table(count_rigid(model));
+    result.rigid_operations = model.description.effects.empty() ? result.operations : table(count_rigid(model, target));
     return result;
 }
 

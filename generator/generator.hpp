@@ -6,6 +6,7 @@
 
 #include "backend/language.hpp"
 #include "emit/template_renderer.hpp"
+#include "graph/cost_model.hpp"
 #include "graph/operation_count.hpp"
 #include "idim/input_error.hpp"
 
@@ -34,6 +35,7 @@ struct operation_table {
 /// What to write of a robot.
 struct generation_options {
     std::string target = "cpp";  ///< one of target_names()
+    std::string cost = "ops";    ///< one of cost_target_names(): what the forms of the models are chosen for
     bool derivatives = false;    ///< of the inverse dynamics by q and qd, as one more function
 };
 
@@ -41,6 +43,7 @@ struct generation_options {
 struct generated_model {
     std::string robot;
     std::string target;
+    std::string cost;
     std::string input_hash;
     base_report base;
     std::vector<joint_context> joints;

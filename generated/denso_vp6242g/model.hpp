@@ -14,7 +14,7 @@
 namespace idim_models::denso_vp6242g {
 
 inline constexpr const char* name = "denso_vp6242g";
-inline constexpr const char* input_hash = "292dd7bc1af8bc4b";
+inline constexpr const char* input_hash = "db3527a1e5bab809";
 inline constexpr int dof = 6;
 inline constexpr int base_parameters = 48;
 inline constexpr int standard_parameters = 72;

@@ -23,7 +23,56 @@ constexpr std::array<double, model::dof> drive_gain = { 45.6, 60.8, 26.4, 21, 21
 constexpr std::array<double, model::dof> velocity_limit = { 2.94591, 2.206485, 2.937646, 3.527403, 3.580162, 3.554126,  };
 constexpr std::array<double, model::dof> torque_delay = { 0, 0, 0, 0, 0, 0,  };
 constexpr std::array<double, model::dof> joint_stiffness = { 0, 0, 0, 0, 0, 0,  };
-constexpr std::array<int, model::base_parameters> parameter_is_per_log = { 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,  };
+constexpr std::array<int, model::base_parameters> parameter_is_per_log = {
+    0,  // ZZ1R
+    0,  // Fv1
+    0,  // Fc1
+    0,  // XX2R
+    0,  // XY2
+    0,  // XZ2R
+    0,  // YZ2
+    0,  // ZZ2R
+    0,  // MX2R
+    0,  // MY2
+    0,  // Fv2
+    0,  // Fc2
+    0,  // XX3R
+    0,  // XY3R
+    0,  // XZ3
+    0,  // YZ3
+    0,  // ZZ3R
+    0,  // MX3R
+    0,  // MY3R
+    0,  // Fv3
+    0,  // Fc3
+    0,  // XX4R
+    0,  // XY4
+    0,  // XZ4
+    0,  // YZ4
+    0,  // ZZ4R
+    0,  // MX4
+    0,  // MY4R
+    0,  // Fv4
+    0,  // Fc4
+    0,  // XX5R
+    0,  // XY5
+    0,  // XZ5
+    0,  // YZ5
+    0,  // ZZ5R
+    0,  // MX5
+    0,  // MY5R
+    0,  // Fv5
+    0,  // Fc5
+    0,  // XX6R
+    0,  // XY6
+    0,  // XZ6
+    0,  // YZ6
+    0,  // ZZ6
+    0,  // MX6
+    0,  // MY6
+    0,  // Fv6
+    0,  // Fc6
+};
 
 void regressor(const double* q, const double* qd, const double* qdd, double, const double*, double* W) {
     model::regressor(q, qd, qdd, W);

@@ -10,7 +10,7 @@
 namespace idim_models::emps {
 
 inline constexpr const char* name = "emps";
-inline constexpr const char* input_hash = "c832facd87bdceee";
+inline constexpr const char* input_hash = "831161e3836d23d1";
 inline constexpr int dof = 1;
 inline constexpr int base_parameters = 4;
 inline constexpr int standard_parameters = 13;

@@ -23,7 +23,12 @@ constexpr std::array<double, model::dof> drive_gain = { 35.15065188248547,  };
 constexpr std::array<double, model::dof> velocity_limit = { 0,  };
 constexpr std::array<double, model::dof> torque_delay = { 0,  };
 constexpr std::array<double, model::dof> joint_stiffness = { 0,  };
-constexpr std::array<int, model::base_parameters> parameter_is_per_log = { 0, 0, 0, 0,  };
+constexpr std::array<int, model::base_parameters> parameter_is_per_log = {
+    0,  // M1
+    0,  // Fv1
+    0,  // Fc1
+    0,  // off1
+};
 
 void regressor(const double* q, const double* qd, const double* qdd, double, const double*, double* W) {
     model::regressor(q, qd, qdd, W);

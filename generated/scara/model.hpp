@@ -12,7 +12,7 @@
 namespace idim_models::scara {
 
 inline constexpr const char* name = "scara";
-inline constexpr const char* input_hash = "e66441ee84c0add3";
+inline constexpr const char* input_hash = "f435ca2fad391f3f";
 inline constexpr int dof = 2;
 inline constexpr int base_parameters = 8;
 inline constexpr int standard_parameters = 26;

@@ -23,7 +23,16 @@ constexpr std::array<double, model::dof> drive_gain = { 0, 0,  };
 constexpr std::array<double, model::dof> velocity_limit = { 0, 0,  };
 constexpr std::array<double, model::dof> torque_delay = { 0, 0,  };
 constexpr std::array<double, model::dof> joint_stiffness = { 0, 0,  };
-constexpr std::array<int, model::base_parameters> parameter_is_per_log = { 0, 0, 0, 0, 0, 0, 0, 0,  };
+constexpr std::array<int, model::base_parameters> parameter_is_per_log = {
+    0,  // ZZ1R
+    0,  // Fv1
+    0,  // Fc1
+    0,  // ZZ2R
+    0,  // MX2
+    0,  // MY2
+    0,  // Fv2
+    0,  // Fc2
+};
 
 void regressor(const double* q, const double* qd, const double* qdd, double, const double*, double* W) {
     model::regressor(q, qd, qdd, W);

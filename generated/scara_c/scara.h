@@ -83,7 +83,7 @@ void scara_regressor_f(const float q[2], const float qd[2], const float qdd[2], 
  *   qdd [2] joint accelerations [rad/s^2 or m/s^2]
  *   chi [base_parameters] base parameters, in the order of base_parameter_names
  *   tau [2] joint torques or forces, joint side [N*m or N]
- * 23 mul, 15 add, 0 div, 4 functions (sin, cos, sign ...) */
+ * 19 mul, 13 add, 0 div, 4 functions (sin, cos, sign ...) */
 void scara_inverse_dynamics_sc(const double q[2], const double sc[2], const double qd[2], const double qdd[2],
                                const double chi[8], double tau[2]);
 void scara_inverse_dynamics(const double q[2], const double qd[2], const double qdd[2], const double chi[8],
@@ -98,7 +98,7 @@ void scara_inverse_dynamics_f(const float q[2], const float qd[2], const float q
  *   sc [2] cosines and sines, as sines gives them
  *   chi [base_parameters] base parameters, in the order of base_parameter_names
  *   M [2 x 2] symmetric
- * 3 mul, 4 add, 0 div, 2 functions (sin, cos, sign ...) */
+ * 3 mul, 3 add, 0 div, 2 functions (sin, cos, sign ...) */
 void scara_mass_matrix_sc(const double q[2], const double sc[2], const double chi[8], double M[4]);
 void scara_mass_matrix(const double q[2], const double chi[8], double M[4]);
 void scara_mass_matrix_sc_f(const float q[2], const float sc[2], const float chi[8], float M[4]);
@@ -110,7 +110,7 @@ void scara_mass_matrix_f(const float q[2], const float chi[8], float M[4]);
  *   qd [2] joint velocities [rad/s or m/s]
  *   chi [base_parameters] base parameters, in the order of base_parameter_names
  *   N [2] joint torques or forces [N*m or N]
- * 16 mul, 8 add, 0 div, 4 functions (sin, cos, sign ...) */
+ * 12 mul, 7 add, 0 div, 4 functions (sin, cos, sign ...) */
 void scara_bias_sc(const double q[2], const double sc[2], const double qd[2], const double chi[8], double N[2]);
 void scara_bias(const double q[2], const double qd[2], const double chi[8], double N[2]);
 void scara_bias_sc_f(const float q[2], const float sc[2], const float qd[2], const float chi[8], float N[2]);
@@ -132,7 +132,7 @@ void scara_gravity_f(const float q[2], const float chi[8], float G[2]);
  *   chi [base_parameters] base parameters, in the order of base_parameter_names
  *   qdd [2] joint accelerations [rad/s^2 or m/s^2]
  *   D [2] pivots, all positive if and only if M is positive definite
- * 25 mul, 17 add, 1 div, 4 functions (sin, cos, sign ...) */
+ * 21 mul, 15 add, 1 div, 4 functions (sin, cos, sign ...) */
 void scara_forward_dynamics_sc(const double q[2], const double sc[2], const double qd[2], const double tau[2],
                                const double chi[8], double qdd[2], double D[2]);
 void scara_forward_dynamics(const double q[2], const double qd[2], const double tau[2], const double chi[8],

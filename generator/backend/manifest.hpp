@@ -35,6 +35,7 @@ struct manifest {
     std::string generator;  ///< "idim 0.1.0"
     std::string robot;
     std::string target;  ///< "cpp"
+    std::string cost;    ///< what the forms of the models were chosen for: "ops"
     std::string input_hash;
     std::vector<std::string> files;
     std::vector<std::string> gravity;  ///< three expressions [m/s^2]

@@ -3,21 +3,24 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <set>
 
+#include "backend/form_choice.hpp"
 #include "backend/function_spelling.hpp"
 #include "dynamics/dynamic_models.hpp"
 #include "graph/derivatives.hpp"
+#include "graph/sum_rewriting.hpp"
 
 namespace idim::generator {
 
 namespace {
 
-using model_builder =
-    std::function<symbolic_model(const kinematic_tree&, const standard_parameters&, const parameter_selection&)>;
+using model_builder = std::function<symbolic_model(const kinematic_tree&, const standard_parameters&,
+                                                   const parameter_selection&, const model_form&)>;
 
 /// A generated function before it is derived.
 struct function_plan {
@@ -26,7 +29,16 @@ struct function_plan {
     std::vector<std::string> inputs;
     std::vector<std::string> outputs;
     model_builder build;
+    form_space forms;
 };
+
+using merging = model_form::merging;
+
+/// Of models that take a torque from a motion, without and with M, and of the regressor.
+const form_space torque_forms = {{merging::tips, true, true, false}, true, false, true, true};
+const form_space inertia_forms = {{merging::all, true, true, true}, true, true, true, false};
+const form_space gravity_forms = {{merging::all, false, true, false}, false, false, false, false};
+const form_space regressor_forms = {{merging::none, false, false, true}, false, true, false, false};
 
 std::vector<function_plan> plans() {
     return {
@@ -34,28 +46,38 @@ std::vector<function_plan> plans() {
          "Regressor of the base parameters: tau = W(q, qd, qdd) chi.",
          {"q", "qd", "qdd", "t", "temp", "state", "tau_rigid", "motor"},
          {"W"},
-         regressor_model},
+         regressor_model,
+         regressor_forms},
         {"inverse_dynamics",
          "Inverse dynamic model: tau = M(q) qdd + N(q, qd).",
          {"q", "qd", "qdd", "t", "temp", "state", "motor", "chi"},
          {"tau"},
-         inverse_dynamics_model},
+         inverse_dynamics_model,
+         torque_forms},
         {"mass_matrix",
          "Inertia matrix of the robot with its drives.",
          {"q", "load_t", "chi"},
          {"M"},
-         mass_matrix_model},
+         mass_matrix_model,
+         inertia_forms},
         {"bias",
          "Torque at zero acceleration: centrifugal, Coriolis, gravity, friction and other effects.",
          {"q", "qd", "t", "temp", "state", "chi"},
          {"N"},
-         bias_model},
-        {"gravity", "Torque that holds the rigid links at rest.", {"q", "load_t", "chi"}, {"G"}, gravity_model},
+         bias_model,
+         torque_forms},
+        {"gravity",
+         "Torque that holds the rigid links at rest.",
+         {"q", "load_t", "chi"},
+         {"G"},
+         gravity_model,
+         gravity_forms},
         {"forward_dynamics",
          "Direct dynamic model: qdd = M(q)^-1 (tau - N(q, qd)), by M = L' D L.",
          {"q", "qd", "tau", "t", "temp", "state", "tau_rigid", "chi"},
          {"qdd", "D"},
-         forward_dynamics_model},
+         forward_dynamics_model,
+         inertia_forms},
     };
 }
 
@@ -67,19 +89,22 @@ std::vector<function_plan> further_plans(const standard_parameters& parameters) 
                           "Torque of the links and payloads alone.",
                           {"q", "qd", "qdd", "load_t", "chi"},
                           {"tau_rigid"},
-                          rigid_torque_model});
+                          rigid_torque_model,
+                          torque_forms});
     }
     if (!parameters.states.empty()) {
         result.push_back({"first_states",
                           "States of effects at the first sample of a motion.",
                           {"q", "qd", "qdd", "t", "temp", "motor"},
                           {"start"},
-                          first_states_model});
+                          first_states_model,
+                          {}});
         result.push_back({"next_states",
                           "States of effects at the sample after this one.",
                           {"q", "qd", "qdd", "t", "temp", "state", "motor", "dt"},
                           {"next"},
-                          next_states_model});
+                          next_states_model,
+                          {}});
     }
     return result;
 }
@@ -144,21 +169,29 @@ std::vector<function_argument> arguments(const function_plan& plan, const robot_
 // That takes constants as symbols, and lengths that are equal, sums and products of lengths are then no longer shared
 // and folded: 1 to 6 multiplications more in M and in the direct model (Denso 125 -> 130, PUMA 137 -> 143), none
 // elsewhere. Kept as values: a changed length touches few lines, and each of them holds it.
-model_function derive(const function_plan& plan, const robot_model& model) {
-    return {plan.name, plan.summary, arguments(plan, model),
-            build_graph(plan.build(model.tree, model.parameters, model.base.selection()), constants_as::values)};
+expression_graph cheapest(const function_plan& plan, const robot_model& model, const parameter_selection& selection,
+                          cost_target target) {
+    return in_cheapest_form(model.tree, plan.forms, target, [&](const model_form& form) {
+        return with_rewritten_sums(
+            build_graph(plan.build(model.tree, model.parameters, selection, form), constants_as::values));
+    });
+}
+
+model_function derive(const function_plan& plan, const robot_model& model, cost_target target) {
+    return {plan.name, plan.summary, arguments(plan, model), cheapest(plan, model, model.base.selection(), target)};
 }
 
 /// How the torque changes with position and velocity. By accelerations and parameters it is linear: M and W.
-model_function derive_derivatives(const robot_model& model) {
+model_function derive_derivatives(const robot_model& model, cost_target target) {
     const function_plan plan{
         "inverse_dynamics_derivatives",
         "Derivatives of inverse_dynamics by q and qd, of sign(x) zero; by qdd they are mass_matrix, by "
         "chi regressor.",
         {"q", "qd", "qdd", "t", "temp", "state", "motor", "chi"},
         {"dtau_dq", "dtau_dqd"},
-        inverse_dynamics_model};
-    model_function torque = derive(plan, model);
+        inverse_dynamics_model,
+        torque_forms};
+    model_function torque = derive(plan, model, target);
     const int n = model.tree.dof();
     torque.graph =
         differentiate(torque.graph, {{"dtau_dq", symbol_role::position, n}, {"dtau_dqd", symbol_role::velocity, n}});
@@ -183,7 +216,7 @@ model_function derive_regrouping(const robot_model& model) {
         graph.output("chi", static_cast<int>(k), sum);
     }
     const function_plan plan{
-        "regroup", "Base parameters of a robot whose standard parameters are known.", {"standard"}, {"chi"}, {}};
+        "regroup", "Base parameters of a robot whose standard parameters are known.", {"standard"}, {"chi"}, {}, {}};
     return {plan.name, plan.summary, arguments(plan, model), graph};
 }
 
@@ -276,6 +309,7 @@ template_context build_context(const robot_model& model, const file_origin& orig
     context.version = origin.version;
     context.robot_file = std::filesystem::path(model.description.file).filename().string();
     context.input_hash = origin.input_hash;
+    context.cost = to_string(origin.cost);
     context.constants = constant_list(model);
     context.effects = effect_list(model.description);
     context.joints = joints(model);
@@ -290,14 +324,14 @@ template_context build_context(const robot_model& model, const file_origin& orig
     set_effects(model, context);
     std::vector<model_function> functions;
     for (const function_plan& plan : plans()) {
-        functions.push_back(derive(plan, model));
+        functions.push_back(derive(plan, model, origin.cost));
     }
     functions.push_back(derive_regrouping(model));
     for (const function_plan& plan : further_plans(model.parameters)) {
-        functions.push_back(derive(plan, model));
+        functions.push_back(derive(plan, model, origin.cost));
     }
     if (derivatives) {
-        functions.push_back(derive_derivatives(model));
+        functions.push_back(derive_derivatives(model, origin.cost));
     }
     spelled_models spelled = spell(functions, names_of(context), spellings);
     context.functions = std::move(spelled.functions);
@@ -307,13 +341,13 @@ template_context build_context(const robot_model& model, const file_origin& orig
     return context;
 }
 
-model_operations count_rigid(const robot_model& model) {
-    const auto count = [&model](const model_builder& build) {
-        return count_operations(
-            build_graph(build(model.tree, model.parameters, model.base.rigid), constants_as::values));
+model_operations count_rigid(const robot_model& model, cost_target target) {
+    const std::vector<function_plan> all = plans();
+    const auto count = [&](const char* name) {
+        const auto plan = std::find_if(all.begin(), all.end(), [name](const auto& p) { return p.name == name; });
+        return count_operations(cheapest(*plan, model, model.base.rigid, target));
     };
-    return {count(inverse_dynamics_model), count(regressor_model), count(mass_matrix_model),
-            count(forward_dynamics_model)};
+    return {count("inverse_dynamics"), count("regressor"), count("mass_matrix"), count("forward_dynamics")};
 }
 
 }  // namespace idim::generator

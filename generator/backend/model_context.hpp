@@ -7,6 +7,7 @@
 #include "base_parameters/base_parameter_set.hpp"
 #include "description/effect_description.hpp"
 #include "description/robot_description.hpp"
+#include "graph/cost_model.hpp"
 
 namespace idim::generator {
 
@@ -30,6 +31,7 @@ std::vector<std::pair<std::string, double>> named_constants(const robot_model& m
 /// What is written at the head of every file.
 struct file_origin {
     std::string version, input_hash;
+    cost_target cost = cost_target::operations;  ///< what the forms of the models were chosen for
 };
 
 /// Derives all models of a robot, with `derivatives` also those of its inverse dynamics, and spells them for the
@@ -38,6 +40,6 @@ template_context build_context(const robot_model& model, const file_origin& orig
                                const languages& spellings, model_operations& operations);
 
 /// Counts for the same robot without its effects.
-model_operations count_rigid(const robot_model& model);
+model_operations count_rigid(const robot_model& model, cost_target target);
 
 }  // namespace idim::generator

@@ -56,6 +56,7 @@ manifest describe(const robot_model& model, const template_context& context) {
     result.generator = "idim " + context.version;
     result.robot = context.robot;
     result.input_hash = context.input_hash;
+    result.cost = context.cost;
     for (const expression_text& entry : model.description.gravity) {
         result.gravity.push_back(entry.text);
     }

@@ -54,6 +54,7 @@ struct template_context {
     std::string version;
     std::string robot_file;  ///< file name without its folder
     std::string input_hash;
+    std::string cost;                    ///< name of the cost model
     std::vector<std::string> constants;  ///< "L = 0.5"
     std::vector<std::string> effects;    ///< "viscous_friction at j1, j2"
     std::vector<joint_context> joints;

@@ -75,6 +75,16 @@ class frame_placer {
         } else if (!normal.parallel && abs(normal.length) < geometric_tolerance) {
             join_wrist(k, next, line(k).at(normal.first));
         }
+        if (!origin_[k] && !is_prismatic(k) && !normal.parallel && follows_parallel(k)) {
+            // An offset along parallel axes costs least before the second of them.
+            origin_[k] = line(k).at(normal.first);
+        }
+    }
+
+    bool follows_parallel(std::size_t k) const {
+        const int before = axes_[k].antecedent;
+        return before != none && !is_prismatic(at(before)) &&
+               are_parallel(axes_[at(before)].direction, axes_[k].direction);
     }
 
     /// Axes k and next meet in `point`; if all axes outward do, it is the origin of them all.

@@ -23,12 +23,12 @@ symbolic_model states_model(const kinematic_tree& tree, const standard_parameter
 }  // namespace
 
 symbolic_model first_states_model(const kinematic_tree& tree, const standard_parameters& parameters,
-                                  const parameter_selection& /*selection*/) {
+                                  const parameter_selection& /*selection*/, const model_form& /*form*/) {
     return states_model(tree, parameters, "start", &effect_memory::start);
 }
 
 symbolic_model next_states_model(const kinematic_tree& tree, const standard_parameters& parameters,
-                                 const parameter_selection& /*selection*/) {
+                                 const parameter_selection& /*selection*/, const model_form& /*form*/) {
     return states_model(tree, parameters, "next", &effect_memory::next);
 }
 

@@ -47,15 +47,16 @@ std::vector<ex> factorise(symbolic_model& model, std::vector<std::vector<ex>>& M
 }  // namespace
 
 symbolic_model forward_dynamics_model(const kinematic_tree& tree, const standard_parameters& parameters,
-                                      const parameter_selection& selection) {
+                                      const parameter_selection& selection, const model_form& form) {
     symbolic_model model(tree);
     const parameter_values values(model, parameters, selection);
     declare_signals(model, parameters);
     declare_rigid_torque(model, parameters);
     const motion_inputs inputs{true, false, true};
-    const std::vector<link_frame> frames = declare_motion(model, tree, inputs);
-    const std::vector<ex> bias = joint_torques(model, tree, frames, values, inputs);
-    auto M = inertia_elements(model, tree, frames, parameters, values);
+    declare_motion(model, tree, inputs);
+    model_frame frame(model, tree, values, merging_all(form));
+    const std::vector<ex> bias = joint_torques(frame, inputs);
+    auto M = inertia_elements(frame, parameters);
     const std::size_t n = M.size();
     std::vector<ex> x(n);
     for (std::size_t i = 0; i < n; ++i) {

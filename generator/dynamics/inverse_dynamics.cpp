@@ -1,6 +1,6 @@
 #include "dynamics/inverse_dynamics.hpp"
 
-#include "dynamics/link_motion.hpp"
+#include "dynamics/dynamic_models.hpp"
 
 namespace idim::generator {
 
@@ -8,62 +8,116 @@ namespace {
 
 using GiNaC::ex;
 
-struct wrench {
-    vector3 force = {0, 0, 0};
-    vector3 moment = {0, 0, 0};
-};
+class torque_recursion {
+  public:
+    torque_recursion(model_frame& frame, const motion_inputs& inputs)
+        : frame_(frame),
+          model_(frame.model),
+          inputs_(inputs),
+          motion_(frame.model, frame.tree, frame.axes, inputs),
+          arriving_(frame.tree.joints.size()),
+          torque_(static_cast<std::size_t>(frame.tree.dof()), 0) {}
 
-/// Force and moment that move one link, at its origin: f = M VP + U MS, n = J WP + W x (J W) + MS x VP, the inertia
-/// term written on the products that U already has, with differences of diagonal inertias folded into one parameter.
-wrench link_wrench(symbolic_model& model, const link_motion& link, const parameter_values& values, int index,
-                   const std::string& label) {
-    const auto& U = link.U;
-    const symmetric3 J = values.inertia(index);
-    const vector3 S = values.first_moments(index);
-    const ex mass = values.inertial(index, parameter_kind::M);
-    const ex zzyy = model.assign("ZZYY" + label, J.zz - J.yy);
-    const ex xxzz = model.assign("XXZZ" + label, J.xx - J.zz);
-    const ex yyxx = model.assign("YYXX" + label, J.yy - J.xx);
-    const ex u2233 = J.yz.is_zero() ? ex(0) : model.assign("U2233_" + label, link.WyWy - link.WzWz);
-    const ex u3311 = J.xz.is_zero() ? ex(0) : model.assign("U3311_" + label, link.WzWz - link.WxWx);
-    const ex u1122 = J.xy.is_zero() ? ex(0) : model.assign("U1122_" + label, link.WxWx - link.WyWy);
-    const vector3 lever = cross(S, link.VP);
-    const vector3 moment = {
-        J.xx * link.WP[0] + zzyy * link.WyWz - J.xy * U[2][0] + J.xz * U[1][0] + J.yz * u2233 + lever[0],
-        J.yy * link.WP[1] + xxzz * link.WxWz + J.xy * U[2][1] + J.xz * u3311 - J.yz * U[0][1] + lever[1],
-        J.zz * link.WP[2] + yyxx * link.WxWy + J.xy * u1122 - J.xz * U[1][2] + J.yz * U[0][2] + lever[2],
-    };
-    const vector3 force = {mass * link.VP[0] + dot(U[0], S), mass * link.VP[1] + dot(U[1], S),
-                           mass * link.VP[2] + dot(U[2], S)};
-    return {model.assign("F" + label, force), model.assign("N" + label, moment)};
-}
+    std::vector<ex> run() {
+        for (std::size_t j = frame_.tree.joints.size(); j-- > 0;) {
+            const bool merged = is_merged(frame_.tree, frame_.axes, frame_.form, j);
+            wrench total = arriving_[j];
+            if (!merged) {
+                total = add(model_, frame_.tree.joints[j].label, own_wrench(j), total);
+            }
+            if (static_cast<int>(j) == frame_.meeting) {
+                meet(j, total);
+                total = {};
+            }
+            const wrench before_turn = merged ? with_joint(j, total) : turned(j, total);
+            bear(j, before_turn);
+            hand_on(j, before_turn);
+        }
+        for (std::size_t i = 0; i < torque_.size(); ++i) {
+            torque_[i] = model_.assign("rigid" + std::to_string(i + 1), torque_[i]);
+        }
+        return std::move(torque_);
+    }
+
+  private:
+    const std::string& label(std::size_t j) const { return frame_.tree.joints[j].label; }
+
+    wrench own_wrench(std::size_t j) {
+        const bool by_moments =
+            frame_.form.second_moments || frame_.form.parallel_axes || frame_.form.merged != model_form::merging::none;
+        return by_moments ? wrench_of_body(model_, motion_.of_link(j), frame_.bodies.link[j], label(j))
+                          : wrench_of_link(model_, motion_.of_link(j), frame_.values, static_cast<int>(j), label(j));
+    }
+
+    /// The torques of all joints inward, and of the link's own, from the wrench that moves what is outward.
+    void meet(std::size_t j, const wrench& total) {
+        const carried_axes& axes = frame_.carried.at_link(j);
+        for (std::size_t i = 0; i < axes.size(); ++i) {
+            torque_[i] += power(axes[i], total.force, total.moment);
+        }
+    }
+
+    wrench turned(std::size_t j, const wrench& total) const {
+        const link_frame& frame = frame_.axes.frames[j];
+        return {frame.link_to_joint("fa" + label(j), total.force), frame.link_to_joint("na" + label(j), total.moment)};
+    }
+
+    wrench with_joint(std::size_t j, const wrench& total) {
+        const kinematic_joint& joint = frame_.tree.joints[j];
+        const wrench before_turn = turned(j, total);
+        if (joint.rates.empty()) {
+            return before_turn;
+        }
+        const carrying_motion under = motion_.under_joint(j);
+        const joint_rates rates = rates_of(model_, frame_.tree, j, inputs_);
+        add_to_rows(joint, carried_torque(model_, joint, under, frame_.bodies.joint[j]));
+        return add(model_, "d" + label(j), before_turn,
+                   added_wrench(model_, joint, under, rates, frame_.bodies.joint[j]));
+    }
+
+    void bear(std::size_t j, const wrench& w) {
+        const kinematic_joint& joint = frame_.tree.joints[j];
+        add_to_rows(joint, joint.type == joint_type::revolute ? w.moment[2] : w.force[2]);
+    }
+
+    void add_to_rows(const kinematic_joint& joint, const ex& torque) {
+        for (const joint_rate& rate : joint.rates) {
+            torque_[static_cast<std::size_t>(rate.coordinate)] += rate.factor * torque;
+        }
+    }
+
+    void hand_on(std::size_t j, const wrench& w) {
+        const int antecedent = frame_.tree.joints[j].antecedent;
+        if (antecedent >= 0) {
+            wrench& before = arriving_[static_cast<std::size_t>(antecedent)];
+            before = add(model_, "s" + label(j), before,
+                         joint_to_antecedent(model_, "b" + label(j), frame_.axes.frames[j], w));
+        }
+    }
+
+    model_frame& frame_;
+    symbolic_model& model_;
+    motion_inputs inputs_;
+    motion_recursion motion_;
+    std::vector<wrench> arriving_;  ///< at each link, from the links outward
+    std::vector<ex> torque_;
+};
 
 }  // namespace
 
-std::vector<ex> joint_torques(symbolic_model& model, const kinematic_tree& tree, const std::vector<link_frame>& frames,
-                              const parameter_values& values, const motion_inputs& inputs) {
-    const std::vector<link_motion> links = propagate_motion(model, tree, frames, inputs);
-    std::vector<wrench> carried(tree.joints.size());
-    std::vector<ex> torque(static_cast<std::size_t>(tree.dof()), 0);
-    for (std::size_t j = tree.joints.size(); j-- > 0;) {
-        const kinematic_joint& joint = tree.joints[j];
-        const wrench own = link_wrench(model, links[j], values, static_cast<int>(j), joint.label);
-        const vector3 f = model.assign("f" + joint.label, add(own.force, carried[j].force));
-        const vector3 n = model.assign("n" + joint.label, add(own.moment, carried[j].moment));
-        for (const joint_rate& rate : joint.rates) {
-            torque[static_cast<std::size_t>(rate.coordinate)] +=
-                rate.factor * (joint.type == joint_type::revolute ? n[2] : f[2]);
-        }
-        if (joint.antecedent >= 0) {
-            wrench& before = carried[static_cast<std::size_t>(joint.antecedent)];
-            const vector3 force = frames[j].to_antecedent("fa" + joint.label, f);
-            const vector3 moment = frames[j].to_antecedent("na" + joint.label, n);
-            before.force = model.assign("fs" + joint.label, add(before.force, force));
-            before.moment =
-                model.assign("ns" + joint.label, add(add(before.moment, moment), cross(frames[j].position(), force)));
-        }
-    }
-    return torque;
+model_frame::model_frame(symbolic_model& symbolic, const kinematic_tree& of, const parameter_values& known,
+                         const model_form& written)
+    : model(symbolic),
+      tree(of),
+      values(known),
+      form(written),
+      axes(lay_axes(symbolic, of, written)),
+      bodies(gather_bodies(symbolic, of, axes, known, written)),
+      carried(symbolic, of, axes),
+      meeting(written.meeting ? last_before_wrist(of) : -1) {}
+
+std::vector<ex> joint_torques(model_frame& frame, const motion_inputs& inputs) {
+    return torque_recursion(frame, inputs).run();
 }
 
 namespace {
@@ -75,13 +129,15 @@ ex scaled(symbolic_model& model, const ex& gain, const std::string& name, const 
 }
 
 symbolic_model torque_model(const kinematic_tree& tree, const standard_parameters& parameters,
-                            const parameter_selection& selection, const motion_inputs& inputs, const std::string& array,
-                            bool with_effects) {
+                            const parameter_selection& selection, const model_form& form, const motion_inputs& inputs,
+                            const std::string& array) {
     symbolic_model model(tree);
     const parameter_values values(model, parameters, selection);
     declare_signals(model, parameters);
-    const std::vector<link_frame> frames = declare_motion(model, tree, inputs);
-    const std::vector<ex> torque = joint_torques(model, tree, frames, values, inputs);
+    declare_motion(model, tree, inputs);
+    model_frame frame(model, tree, values, form);
+    const std::vector<ex> torque = joint_torques(frame, inputs);
+    const bool with_effects = inputs.velocity;
     for (std::size_t i = 0; i < torque.size() && with_effects && parameters.uses_rigid_torque; ++i) {
         model.define(parameters.rigid_torque[i], torque[i]);
     }
@@ -107,21 +163,22 @@ ex without_acceleration(const ex& torque, const kinematic_tree& tree) {
 }
 
 symbolic_model inverse_dynamics_model(const kinematic_tree& tree, const standard_parameters& parameters,
-                                      const parameter_selection& selection) {
-    return torque_model(tree, parameters, selection, {true, true, true}, "tau", true);
+                                      const parameter_selection& selection, const model_form& form) {
+    return torque_model(tree, parameters, selection, form, {true, true, true}, "tau");
 }
 
 symbolic_model bias_model(const kinematic_tree& tree, const standard_parameters& parameters,
-                          const parameter_selection& selection) {
-    return torque_model(tree, parameters, selection, {true, false, true}, "N", true);
+                          const parameter_selection& selection, const model_form& form) {
+    return torque_model(tree, parameters, selection, form, {true, false, true}, "N");
 }
 
 symbolic_model rigid_torque_model(const kinematic_tree& tree, const standard_parameters& parameters,
-                                  const parameter_selection& selection) {
+                                  const parameter_selection& selection, const model_form& form) {
     symbolic_model model(tree);
     const parameter_values values(model, parameters, selection);
-    const std::vector<link_frame> frames = declare_motion(model, tree, {});
-    const std::vector<ex> torque = joint_torques(model, tree, frames, values, {});
+    declare_motion(model, tree, {});
+    model_frame frame(model, tree, values, form);
+    const std::vector<ex> torque = joint_torques(frame, {});
     for (std::size_t i = 0; i < torque.size(); ++i) {
         model.output("tau_rigid", static_cast<int>(i), model.assign("rigid" + std::to_string(i + 1), torque[i]));
     }
@@ -129,8 +186,8 @@ symbolic_model rigid_torque_model(const kinematic_tree& tree, const standard_par
 }
 
 symbolic_model gravity_model(const kinematic_tree& tree, const standard_parameters& parameters,
-                             const parameter_selection& selection) {
-    return torque_model(tree, parameters, selection, {false, false, true}, "G", false);
+                             const parameter_selection& selection, const model_form& form) {
+    return torque_model(tree, parameters, selection, form, {false, false, true}, "G");
 }
 
 }  // namespace idim::generator

@@ -8,13 +8,6 @@ namespace {
 
 using GiNaC::ex;
 
-bool is_identity(const angle_pair& angle) {
-    return angle.sin.is_zero() && angle.cos.is_equal(1);
-}
-bool is_quarter(const angle_pair& angle) {
-    return angle.sin.is_zero() || angle.cos.is_zero();
-}
-
 angle_pair inverse(const angle_pair& angle) {
     return {angle.cos, -angle.sin};
 }
@@ -34,6 +27,32 @@ vector3 turn(symbolic_model& model, const std::string& name, const angle_pair& a
         result[b] = model.assign(fmt::format("{}_{}", name, b + 1), result[b]);
     }
     return result;
+}
+
+symmetric3 z_to_x(const symmetric3& m) {
+    return {m.yy, m.yz, m.xy, m.zz, m.xz, m.xx};
+}
+symmetric3 x_to_z(const symmetric3& m) {
+    return {m.zz, m.xz, m.yz, m.xx, m.xy, m.yy};
+}
+
+/// About x: the axes renamed cyclically (y z x) -> (x y z), turned about the new z, and renamed back.
+symmetric3 turn_about_x(symbolic_model& model, const std::string& name, const angle_pair& angle, const symmetric3& m) {
+    return x_to_z(turn_about_z(model, name, angle, z_to_x(m)));
+}
+
+}  // namespace
+
+bool is_identity(const angle_pair& angle) {
+    return angle.sin.is_zero() && angle.cos.is_equal(1);
+}
+
+bool is_quarter(const angle_pair& angle) {
+    return angle.sin.is_zero() || angle.cos.is_zero();
+}
+
+vector3 turn_about_z(symbolic_model& model, const std::string& name, const angle_pair& angle, const vector3& v) {
+    return turn(model, name, angle, 2, v);
 }
 
 /// A symmetric matrix turned about z. With u = s (xx - yy) + 2 c xy: xx' = xx - s u, yy' = yy + s u, xy' = c u - xy,
@@ -60,20 +79,6 @@ symmetric3 turn_about_z(symbolic_model& model, const std::string& name, const an
             m.zz};
 }
 
-symmetric3 z_to_x(const symmetric3& m) {
-    return {m.yy, m.yz, m.xy, m.zz, m.xz, m.xx};
-}
-symmetric3 x_to_z(const symmetric3& m) {
-    return {m.zz, m.xz, m.yz, m.xx, m.xy, m.yy};
-}
-
-/// About x: the axes renamed cyclically (y z x) -> (x y z), turned about the new z, and renamed back.
-symmetric3 turn_about_x(symbolic_model& model, const std::string& name, const angle_pair& angle, const symmetric3& m) {
-    return x_to_z(turn_about_z(model, name, angle, z_to_x(m)));
-}
-
-}  // namespace
-
 vector3 cross(const vector3& a, const vector3& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
@@ -90,29 +95,43 @@ bool is_zero(const vector3& a) {
     return a[0].is_zero() && a[1].is_zero() && a[2].is_zero();
 }
 
-link_frame::link_frame(symbolic_model& model, const kinematic_joint& joint)
-    : model_(model), gamma_(joint.gamma), alpha_(joint.alpha), theta_(joint.theta) {
-    theta_.cos = model.assign("C" + joint.label, theta_.cos);
-    theta_.sin = model.assign("S" + joint.label, theta_.sin);
-    position_ = model.assign("P" + joint.label, joint.position());
-}
+link_frame::link_frame(symbolic_model& model, const kinematic_joint& joint, const angle_pair& theta,
+                       const vector3& position)
+    : model_(model), gamma_(joint.gamma), alpha_(joint.alpha), theta_(theta), position_(position) {}
 
-vector3 link_frame::to_link(const std::string& name, const vector3& v) const {
+vector3 link_frame::antecedent_to_joint(const std::string& name, const vector3& v) const {
     const vector3 after_gamma = turn(model_, name + "_g", inverse(gamma_), 2, v);
-    const vector3 after_alpha = turn(model_, name + "_a", inverse(alpha_), 0, after_gamma);
-    return turn(model_, name, inverse(theta_), 2, after_alpha);
+    return turn(model_, name + "_a", inverse(alpha_), 0, after_gamma);
 }
 
-vector3 link_frame::to_antecedent(const std::string& name, const vector3& v) const {
-    const vector3 after_theta = turn(model_, name, theta_, 2, v);
-    const vector3 after_alpha = turn(model_, name + "_a", alpha_, 0, after_theta);
+vector3 link_frame::joint_to_antecedent(const std::string& name, const vector3& v) const {
+    const vector3 after_alpha = turn(model_, name + "_a", alpha_, 0, v);
     return turn(model_, name + "_g", gamma_, 2, after_alpha);
 }
 
-symmetric3 link_frame::to_antecedent(const std::string& name, const symmetric3& m) const {
-    const symmetric3 after_theta = turn_about_z(model_, name, theta_, m);
-    const symmetric3 after_alpha = turn_about_x(model_, name + "_a", alpha_, after_theta);
+symmetric3 link_frame::joint_to_antecedent(const std::string& name, const symmetric3& m) const {
+    const symmetric3 after_alpha = turn_about_x(model_, name + "_a", alpha_, m);
     return turn_about_z(model_, name + "_g", gamma_, after_alpha);
+}
+
+vector3 link_frame::joint_to_link(const std::string& name, const vector3& v) const {
+    return turn(model_, name, inverse(theta_), 2, v);
+}
+
+vector3 link_frame::link_to_joint(const std::string& name, const vector3& v) const {
+    return turn(model_, name, theta_, 2, v);
+}
+
+symmetric3 link_frame::link_to_joint(const std::string& name, const symmetric3& m) const {
+    return turn_about_z(model_, name, theta_, m);
+}
+
+vector3 link_frame::to_link(const std::string& name, const vector3& v) const {
+    return joint_to_link(name, antecedent_to_joint(name, v));
+}
+
+vector3 link_frame::to_antecedent(const std::string& name, const vector3& v) const {
+    return joint_to_antecedent(name, link_to_joint(name, v));
 }
 
 }  // namespace idim::generator

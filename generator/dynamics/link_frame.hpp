@@ -20,20 +20,40 @@ GiNaC::ex dot(const vector3& a, const vector3& b);
 vector3 add(const vector3& a, const vector3& b);
 bool is_zero(const vector3& a);
 
-/// Rotation between the frame of a joint's link and that of its antecedent, in up to three plane rotations with a name
-/// for every component in between: Rot(z,gamma) Rot(x,alpha) Rot(z,theta).
+bool is_identity(const angle_pair& angle);
+/// A multiple of a quarter turn: turning by it exchanges components.
+bool is_quarter(const angle_pair& angle);
+
+/// A vector turned by the angle about z; named unless it is a mere exchange of components.
+vector3 turn_about_z(symbolic_model& model, const std::string& name, const angle_pair& angle, const vector3& v);
+symmetric3 turn_about_z(symbolic_model& model, const std::string& name, const angle_pair& angle, const symmetric3& m);
+
+/// Rotation between the axes of a joint's link and those of its antecedent, in up to three plane rotations with a name
+/// for every component in between: Rot(z,gamma) Rot(x,alpha) leads to the axes of the joint, Rot(z,theta) to the
+/// link's.
 class link_frame {
   public:
-    link_frame(symbolic_model& model, const kinematic_joint& joint);
+    /// `theta` turns from the joint's axes to the link's; `position` is the origin in the antecedent's axes.
+    link_frame(symbolic_model& model, const kinematic_joint& joint, const angle_pair& theta, const vector3& position);
 
-    /// Components of a vector of the antecedent's frame in the link's frame; `name` names what has to be computed.
+    /// Components of a vector of the antecedent's axes in the link's; `name` names what has to be computed.
     vector3 to_link(const std::string& name, const vector3& v) const;
-    /// Components of a vector of the link's frame in the antecedent's frame.
+    /// Components of a vector of the link's axes in the antecedent's.
     vector3 to_antecedent(const std::string& name, const vector3& v) const;
-    /// Components of a symmetric matrix of the link's frame in the antecedent's frame.
-    symmetric3 to_antecedent(const std::string& name, const symmetric3& m) const;
 
-    /// Origin of the link's frame in the antecedent's frame.
+    /// The two halves of the way.
+    vector3 antecedent_to_joint(const std::string& name, const vector3& v) const;
+    vector3 joint_to_antecedent(const std::string& name, const vector3& v) const;
+    symmetric3 joint_to_antecedent(const std::string& name, const symmetric3& m) const;
+    vector3 joint_to_link(const std::string& name, const vector3& v) const;
+    vector3 link_to_joint(const std::string& name, const vector3& v) const;
+    symmetric3 link_to_joint(const std::string& name, const symmetric3& m) const;
+
+    /// The joint's axes are the antecedent's but for an exchange of components.
+    bool exchanges_axes() const { return is_quarter(gamma_) && is_quarter(alpha_); }
+    /// The joint's z axis is parallel to the antecedent's.
+    bool keeps_z() const { return alpha_.sin.is_zero(); }
+    /// Origin of the link in the antecedent's axes.
     const vector3& position() const { return position_; }
 
   private:

@@ -2,15 +2,12 @@
 
 #include <vector>
 
-#include "dynamics/link_frame.hpp"
-#include "dynamics/parameter_values.hpp"
+#include "dynamics/inverse_dynamics.hpp"
 
 namespace idim::generator {
 
 /// Lower triangle of M, element (i, j) with j <= i, by composite rigid bodies (Walker and Orin 1982), effects included.
-std::vector<std::vector<GiNaC::ex>> inertia_elements(symbolic_model& model, const kinematic_tree& tree,
-                                                     const std::vector<link_frame>& frames,
-                                                     const standard_parameters& parameters,
-                                                     const parameter_values& values);
+/// The frame's form merges all joints.
+std::vector<std::vector<GiNaC::ex>> inertia_elements(model_frame& frame, const standard_parameters& parameters);
 
 }  // namespace idim::generator

@@ -76,20 +76,21 @@ void declare_as_free(symbolic_model& model, const standard_parameters& parameter
 symbolic_model virtual_power_model(const kinematic_tree& tree, const standard_parameters& parameters) {
     symbolic_model model(tree);
     declare_as_free(model, parameters);
-    const std::vector<link_frame> frames = declare_motion(model, tree, {});
+    declare_motion(model, tree, {});
+    const link_axes axes = lay_axes(model, tree, {});
     std::vector<GiNaC::symbol> v;
     for (int i = 0; i < tree.dof(); ++i) {
         v.push_back(model.declare({fmt::format("v{}", i + 1), symbol_role::velocity, tree.dof() + i}));
     }
-    const std::vector<link_motion> links = propagate_motion(model, tree, frames, {});
+    const motion_recursion motion(model, tree, axes, {});
     std::vector<virtual_twist> twists;
     std::vector<std::array<ex, 10>> inertial;
     for (std::size_t j = 0; j < tree.joints.size(); ++j) {
         const kinematic_joint& joint = tree.joints[j];
         const virtual_twist before =
             joint.antecedent < 0 ? virtual_twist{} : twists[static_cast<std::size_t>(joint.antecedent)];
-        twists.push_back(step(model, joint, frames[j], before, v));
-        inertial.push_back(inertial_columns(model, links[j], twists.back(), joint.label));
+        twists.push_back(step(model, joint, axes.frames[j], before, v));
+        inertial.push_back(inertial_columns(model, motion.of_link(j), twists.back(), joint.label));
     }
     for (std::size_t p = 0; p < parameters.all.size(); ++p) {
         const standard_parameter& parameter = parameters.all[p];

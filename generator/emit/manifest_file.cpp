@@ -16,7 +16,7 @@ namespace {
 using json = nlohmann::ordered_json;
 
 /// Counted up when an entry gets another name or meaning.
-constexpr int format = 2;
+constexpr int format = 3;
 
 json joint_json(const manifest_joint& joint) {
     json result = {{"name", joint.name},
@@ -53,10 +53,11 @@ json effect_json(const manifest_effect& effect) {
 }
 
 json to_json(const manifest& content) {
-    json result = {{"generator", content.generator}, {"format", format},           {"interface", IDIM_MODEL_ABI},
-                   {"robot", content.robot},         {"target", content.target},   {"input_hash", content.input_hash},
-                   {"files", content.files},         {"gravity", content.gravity}, {"constants", json::object()},
-                   {"joints", json::array()},        {"effects", json::array()},   {"operations", json::object()}};
+    json result = {{"generator", content.generator},   {"format", format},         {"interface", IDIM_MODEL_ABI},
+                   {"robot", content.robot},           {"target", content.target}, {"cost", content.cost},
+                   {"input_hash", content.input_hash}, {"files", content.files},   {"gravity", content.gravity},
+                   {"constants", json::object()},      {"joints", json::array()},  {"effects", json::array()},
+                   {"operations", json::object()}};
     for (const auto& [name, value] : content.constants) {
         result["constants"][name] = value;
     }
@@ -259,6 +260,7 @@ manifest read_manifest(const std::string& text, const std::string& file) {
     result.generator = root.at("generator").text();
     result.robot = root.at("robot").text();
     result.target = root.at("target").text();
+    result.cost = root.at("cost").text();
     result.input_hash = root.at("input_hash").text();
     result.files = root.at("files").texts();
     result.gravity = root.at("gravity").texts();

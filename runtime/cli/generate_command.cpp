@@ -35,8 +35,9 @@ json to_json(const generator::generated_model& model) {
     }
     json operations = to_json(model.operations);
     operations["rigid"] = to_json(model.rigid_operations);
-    return {{"robot", model.robot}, {"target", model.target},   {"input_hash", model.input_hash},
-            {"files", files},       {"seconds", model.seconds}, {"operations", operations}};
+    return {{"robot", model.robot},           {"target", model.target}, {"cost", model.cost},
+            {"input_hash", model.input_hash}, {"files", files},         {"seconds", model.seconds},
+            {"operations", operations}};
 }
 
 void print_operations(const char* name, const generator::operation_count& all,
@@ -102,6 +103,11 @@ void add_generate_command(CLI::App& app, action& chosen) {
     command->add_option("-o,--output", options->folder, "folder for the code")->required();
     command->add_option("--target", options->wanted.target, "language of the code")
         ->check(CLI::IsMember(generator::target_names()))
+        ->capture_default_str();
+    command
+        ->add_option("--cost", options->wanted.cost,
+                     "what the code is made cheap for: the fewest operations, an x86 processor or a Cortex-M4F")
+        ->check(CLI::IsMember(generator::cost_target_names()))
         ->capture_default_str();
     command->add_flag("--derivatives", options->wanted.derivatives,
                       "also derivatives of the inverse dynamics by positions and velocities");

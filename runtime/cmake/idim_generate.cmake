@@ -1,10 +1,11 @@
-# idim_generate(TARGET <target> ROBOT <robot.yaml | robot.urdf> [LANGUAGE cpp|c] [DERIVATIVES] [HEADERS_ONLY])
+# idim_generate(TARGET <target> ROBOT <robot.yaml | robot.urdf> [LANGUAGE cpp|c] [COST ops|x86|mcu] [DERIVATIVES] [HEADERS_ONLY])
 #
 # Generates the models of a robot at build time, into the build tree, and adds them to a target. <robot> is the file's name without
 # .yaml, <name> the name in the file.
 #   LANGUAGE cpp (default): #include "<robot>/regressor.hpp", namespace idim_models::<name>; unless HEADERS_ONLY is given, also the
 #     interface for the identifiers, extern "C" const idim_model_interface* idim_model_<robot>(void), and idim::runtime.
 #   LANGUAGE c: #include "<robot>/<name>.h"; unless HEADERS_ONLY is given, also its sources, in double and single precision.
+#   COST ops (default): the forms of the models are chosen for the fewest operations; x86, mcu: for such a processor.
 #   DERIVATIVES: also <robot>/inverse_dynamics_derivatives, the derivatives of the inverse dynamics by positions and velocities.
 # A change of the robot, of an effect or template, or of the generator regenerates; files that stay the same keep their times.
 #
@@ -79,7 +80,7 @@ function(_idim_generator result)
 endfunction()
 
 # One custom target for a robot and language, whatever number of targets use it: it keeps where the files stand and which they are.
-function(_idim_add_model target robot_file language derivatives folder)
+function(_idim_add_model target robot_file language cost derivatives folder)
   _idim_generator(generator)
   _idim_read_robot("${robot_file}" name urdf_file)
   _idim_model_files(${language} "${name}" ${derivatives} files)
@@ -91,24 +92,29 @@ function(_idim_add_model target robot_file language derivatives folder)
   add_custom_command(
     OUTPUT "${folder}/generated.stamp"
     BYPRODUCTS ${files}
-    COMMAND "${generator}" generate "${robot_file}" -o "${folder}" --target ${language} "$<$<BOOL:${derivatives}>:--derivatives>"
+    COMMAND "${generator}" generate "${robot_file}" -o "${folder}" --target ${language} --cost ${cost}
+            "$<$<BOOL:${derivatives}>:--derivatives>"
     COMMAND ${CMAKE_COMMAND} -E touch "${folder}/generated.stamp"
     DEPENDS "${generator}" "${robot_file}" ${urdf_file} ${inputs}
     COMMENT "idim: models of ${name}"
     COMMAND_EXPAND_LISTS VERBATIM)
   add_custom_target(${target} DEPENDS "${folder}/generated.stamp")
-  set_target_properties(${target} PROPERTIES IDIM_ROBOT "${robot_file}" IDIM_FOLDER "${folder}" IDIM_FILES "${files}"
-                        IDIM_DERIVATIVES ${derivatives})
+  set_target_properties(${target} PROPERTIES IDIM_ROBOT "${robot_file}" IDIM_COST ${cost} IDIM_DERIVATIVES ${derivatives}
+                                             IDIM_FOLDER "${folder}" IDIM_FILES "${files}")
 endfunction()
 
 function(idim_generate)
-  cmake_parse_arguments(ARG "HEADERS_ONLY;DERIVATIVES" "TARGET;ROBOT;LANGUAGE" "" ${ARGN})
+  cmake_parse_arguments(ARG "HEADERS_ONLY;DERIVATIVES" "TARGET;ROBOT;LANGUAGE;COST" "" ${ARGN})
   if(NOT ARG_LANGUAGE)
     set(ARG_LANGUAGE cpp)
   endif()
-  if(NOT ARG_TARGET OR NOT ARG_ROBOT OR NOT ARG_LANGUAGE MATCHES "^(cpp|c)$" OR ARG_UNPARSED_ARGUMENTS)
-    message(FATAL_ERROR "idim_generate: expected TARGET <target> ROBOT <robot.yaml | robot.urdf> [LANGUAGE cpp|c] [DERIVATIVES] "
-                        "[HEADERS_ONLY], got: ${ARGN}")
+  if(NOT ARG_COST)
+    set(ARG_COST ops)
+  endif()
+  if(NOT ARG_TARGET OR NOT ARG_ROBOT OR NOT ARG_LANGUAGE MATCHES "^(cpp|c)$" OR NOT ARG_COST MATCHES "^(ops|x86|mcu)$"
+     OR ARG_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "idim_generate: expected TARGET <target> ROBOT <robot.yaml | robot.urdf> [LANGUAGE cpp|c] "
+                        "[COST ops|x86|mcu] [DERIVATIVES] [HEADERS_ONLY], got: ${ARGN}")
   endif()
   if(NOT TARGET ${ARG_TARGET})
     message(FATAL_ERROR "idim_generate: no target ${ARG_TARGET}")
@@ -126,12 +132,16 @@ function(idim_generate)
 
   set(models idim_generate_${ARG_LANGUAGE}_${identifier})
   if(NOT TARGET ${models})
-    _idim_add_model(${models} "${robot_file}" ${ARG_LANGUAGE} ${ARG_DERIVATIVES}
+    _idim_add_model(${models} "${robot_file}" ${ARG_LANGUAGE} ${ARG_COST} ${ARG_DERIVATIVES}
                     "${CMAKE_CURRENT_BINARY_DIR}/idim_models/${ARG_LANGUAGE}/${robot}")
   endif()
   get_target_property(same_robot ${models} IDIM_ROBOT)
   if(NOT same_robot STREQUAL robot_file)
     message(FATAL_ERROR "idim_generate: two robots called ${robot}: ${same_robot} and ${robot_file}")
+  endif()
+  get_target_property(same_cost ${models} IDIM_COST)
+  if(NOT same_cost STREQUAL ARG_COST)
+    message(FATAL_ERROR "idim_generate: ${robot} with COST ${same_cost} and COST ${ARG_COST}, expected one for a robot and language")
   endif()
   get_target_property(has_derivatives ${models} IDIM_DERIVATIVES)
   if(ARG_DERIVATIVES AND NOT has_derivatives)

@@ -18,6 +18,7 @@ manifest full_manifest() {
     content.generator = "idim 1.2.3";
     content.robot = "arm";
     content.target = "cpp";
+    content.cost = "mcu";
     content.input_hash = "0123456789abcdef";
     content.files = {"regressor.hpp", "model_interface.cpp"};
     content.gravity = {"0", "0", "-9.81"};
@@ -45,7 +46,7 @@ std::ostream& operator<<(std::ostream& stream, const bad_manifest& bad) {
 class BadManifest : public testing::TestWithParam<bad_manifest> {};
 
 const bad_manifest bad_manifests[] = {
-    {"OfAnotherFormat", "/format", "1", "format: expected 2"},
+    {"OfAnotherFormat", "/format", "1", "format: expected 3"},
     {"WithoutFormat", "/format", "", "format: expected an entry"},
     {"OfAnotherInterface", "/interface", "1", "interface: expected "},
     {"WithoutHash", "/input_hash", "", "input_hash: expected an entry"},
@@ -62,6 +63,7 @@ const bad_manifest bad_manifests[] = {
     {"WithAJointThatIsNoMap", "/joints/1", "\"j2\"", "joints.2: expected a map"},
     {"WithAnUnknownJointType", "/joints/0/type", "\"screw\"", "joints.1.type: expected revolute, prismatic or fixed"},
     {"WithoutTarget", "/target", "", "target: expected an entry"},
+    {"WithoutCost", "/cost", "", "cost: expected an entry"},
     {"WithAJointThatIsHalfDriven", "/joints/0/driven", "0.5", "joints.1.driven: expected true or false"},
     {"WithOneLimit", "/joints/0/position", "[1]", "joints.1.position: expected two numbers"},
     {"WithLimitsTheOtherWayRound", "/joints/0/position", "[1, 0]", "joints.1.position: expected two numbers"},

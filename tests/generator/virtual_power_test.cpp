@@ -59,7 +59,7 @@ void expect_weighted_rows(const robot& of) {
         all.names.push_back(of.parameters.all[p].name);
     }
     const expression_graph power = build_graph(virtual_power_model(of.tree, of.parameters), constants_as::values);
-    const expression_graph W = build_graph(regressor_model(of.tree, of.parameters, all), constants_as::values);
+    const expression_graph W = build_graph(regressor_model(of.tree, of.parameters, all, {}), constants_as::values);
     const auto columns = static_cast<int>(all.kept.size());
     std::mt19937_64 random(21);
     for (int k = 0; k < 10; ++k) {

@@ -104,6 +104,7 @@ add_library(t ${CMAKE_BINARY_DIR}/t.cpp)
     cp "$tree/share/idim/robots/emps/emps.yaml" "$WORK/twin"
     refused "${start}idim_generate(TARGET t)" "expected TARGET <target> ROBOT <robot.yaml | robot.urdf>"
     refused "${start}idim_generate(TARGET t ROBOT \${IDIM_ROBOTS}/emps/emps.yaml LANGUAGE ada)" "[LANGUAGE cpp|c]"
+    refused "${start}idim_generate(TARGET t ROBOT \${IDIM_ROBOTS}/emps/emps.yaml COST gpu)" "[COST ops|x86|mcu]"
     refused "${start}idim_generate(TARGET t ROBOT \${IDIM_ROBOTS}/emps/emps.yaml LANGUAGE c)" "C among its LANGUAGES"
     refused "${start}idim_generate(TARGET none ROBOT \${IDIM_ROBOTS}/emps/emps.yaml)" "idim_generate: no target none"
     refused "${start}idim_generate(TARGET t ROBOT nowhere.yaml)" "idim_generate: no file"

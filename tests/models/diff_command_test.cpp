@@ -126,7 +126,7 @@ TEST_F(DiffCommand, TheSameTorqueByAnotherSumIsTheSameUpToRounding) {
 
 TEST_F(DiffCommand, AConstantEditedByHandInTheTenthDigitIsFound) {
     const std::string folder =
-        edited("inverse_dynamics.hpp", "ns2_3 = N2_3 + Scalar(0.5)", "ns2_3 = N2_3 + Scalar(0.5000000001)");
+        edited("inverse_dynamics.hpp", "nb2_at_3 = N2_3 + Scalar(0.5)", "nb2_at_3 = N2_3 + Scalar(0.5000000001)");
     const json found = compared(scara_, folder);
     EXPECT_EQ(found["torque"]["verdict"], "different");
     EXPECT_EQ(found["torque"]["absolute"]["joint"], "j1") << "n1 alone has a part in it";

@@ -105,4 +105,13 @@ TEST_F(GenerateCheck, BytesThatAreNoTextDoNotBreakTheJson) {
     EXPECT_TRUE(nlohmann::json::accept(result.out)) << result.err;
 }
 
+TEST_F(GenerateCheck, AFolderMadeCheapForAnotherTargetIsStaleAndOneForTheSameIsCurrent) {
+    EXPECT_EQ(check({"--cost", "mcu"}).status, 1);
+    EXPECT_EQ(run_idim({"generate", robot_file("emps"), "-o", path(), "--cost", "mcu"}).status, 0);
+    EXPECT_NE(read_text(path() + "/manifest.json").find("\"cost\": \"mcu\""), std::string::npos);
+    EXPECT_EQ(check({"--cost", "mcu"}).status, 0);
+    EXPECT_EQ(check().status, 1);
+    EXPECT_EQ(check({"--cost", "gpu"}).status, 2);
+}
+
 }  // namespace idim::test

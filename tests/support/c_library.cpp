@@ -35,7 +35,7 @@ std::vector<std::string> c_library::sources() const {
 }
 
 c_library::c_library(const std::string& robot_file, bool derivatives)
-    : generated_(generator::generate(robot_file, templates_folder, {"c", derivatives})) {
+    : generated_(generator::generate(robot_file, templates_folder, {"c", "ops", derivatives})) {
     for (const generator::rendered_file& file : generated_.files) {
         folder_.write(file.name, file.text);
     }
