@@ -99,9 +99,11 @@ TEST(EffectDescription, MissingUnknownAndWrongFieldsAreRefused) {
     EXPECT_EQ(error_of("effect: friction\nper: robot\n"),
               "friction.yaml:1: torque: missing, expected an expression of the signals and coefficients");
     EXPECT_EQ(error_of(friction("")), "friction.yaml:1: linear: missing, expected at least one coefficient");
-    EXPECT_EQ(
-        error_of(friction("kind: x\n")),
-        "friction.yaml:4: unknown key \"kind\", expected one of effect, per, acts_on, torque, linear, shape, about");
+    EXPECT_EQ(error_of(friction("sort: x\n")),
+              "friction.yaml:4: unknown key \"sort\", expected one of effect, per, acts_on, kind, torque, "
+              "torque_without_temperature, per_log, state, linear, shape, about");
+    EXPECT_EQ(error_of(friction("kind: x\n")),
+              "friction.yaml:4: kind: expected expression, delay, gain, elasticity, tilt or payload, got \"x\"");
     EXPECT_EQ(error_of(friction("linear: {F: 1}\n")),
               "friction.yaml:4: linear.F: expected a map with keys among unit, min, got \"1\"");
     EXPECT_EQ(error_of(friction("linear: {F: {min: 0}}\n")),
