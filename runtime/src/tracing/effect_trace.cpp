@@ -22,7 +22,8 @@ namespace {
 constexpr double first_alignment = 0.5;  ///< of a sample: where its linearisation starts
 constexpr int linearisations = 3;
 constexpr double implausible_z = 2.0;
-constexpr double loosest_shape = 0.5;  ///< deviation of a shape over its value
+constexpr double least_explained = 0.01;  ///< of the residual variance held back, once everything is fitted again
+constexpr double loosest_shape = 0.5;     ///< deviation of a shape over its value
 /// The error over all joints may rise by this part: other joints' parameters move within their deviations.
 constexpr double error_margin = 2e-3;
 
@@ -199,6 +200,8 @@ class tracer {
             terms.push_back(all.candidates[i].evidence.term);
             trace_fit with = settled(fit_with_own_noise(logs_, terms, &fit.noise()));
             if (errors_of(with, true).relative_error > (1.0 + error_margin) * errors_of(fit, true).relative_error ||
+                explained_fraction(fit, with, all.candidates[i].evidence.term.candidate->joints, {}) <
+                    least_explained ||
                 makes_implausible(fit, with) || has_loose_shape(with)) {
                 continue;
             }
