@@ -137,7 +137,8 @@ void robot_motion::constrained_acceleration(const double* q, double t, double* q
     }
     Eigen::Map<Eigen::VectorXd> result(qdd, n_);
     const Eigen::LLT<Eigen::MatrixXd> factors(free);
-    if (factors.info() != Eigen::Success) {
+    // Joints at rest hide an inertia matrix that is not positive definite.
+    if (factors.info() != Eigen::Success || Eigen::LLT<Eigen::MatrixXd>(M_).info() != Eigen::Success) {
         const int joint =
             model_.forward_dynamics(q, speed_.data(), tau_.data(), t, signals_.data(), chi_.data(), qdd);
         fail(t, std::clamp<int>(joint, 1, model_.dof) - 1, indefinite);

@@ -30,6 +30,7 @@ LinkToTheCommandFindsThemToo() {
 }
 
 TemplatesOfTheEnvironmentComeFirst() {
+    rm -rf "$WORK/templates"
     cp -r "$tree/share/idim/templates" "$WORK/templates"
     echo "// mine" >>"$WORK/templates/cpp/functions.hpp.mustache"
     IDIM_TEMPLATES=$WORK/templates "$idim" generate "$tree/share/idim/robots/emps/emps.yaml" -o "$WORK/emps" >/dev/null

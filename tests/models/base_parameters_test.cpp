@@ -288,7 +288,7 @@ TEST(RigidLinksAlone, HaveTheOperationsOfTheRobotWithoutEffects) {
 
 INSTANTIATE_TEST_SUITE_P(RevoluteRobots, Regrouping,
                          testing::Values("denso_vp6242g", "puma560", "rx90", "tx40", "ur5", "panda", "kuka_lwr",
-                                         "xmate7p", "kinova_gen3"),
+                                         "xmate7p"),
                          robot_name);
 
 TEST_P(Rank, IsThatOfARegressorByKdl) {

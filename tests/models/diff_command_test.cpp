@@ -199,7 +199,7 @@ std::ostream& operator<<(std::ostream& stream, const bad_folder& folder) {
 class BadFolder : public DiffCommand, public testing::WithParamInterface<bad_folder> {};
 
 const bad_folder bad_folders[] = {
-    {"OfAnotherFormat", "manifest.json", "\"format\": 2", "\"format\": 1", "/manifest.json: format: expected 2"},
+    {"OfAnotherFormat", "manifest.json", "\"format\": 3", "\"format\": 1", "/manifest.json: format: expected 3"},
     {"OfAnotherInterface", "manifest.json", "\"interface\": ", "\"interface\": 1",
      "/manifest.json: interface: expected "},
     {"OfAnotherTarget", "manifest.json", "\"target\": \"cpp\"", "\"target\": \"c\"",
