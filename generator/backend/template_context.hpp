@@ -66,7 +66,7 @@ struct template_context {
     bool has_elastic_joint = false;
     bool has_payload = false;
     std::vector<std::string> states;  ///< of effects: "z2"
-    int sines = 0;  ///< cosines and sines that the models share
+    int sines = 0;                    ///< cosines and sines that the models share
     std::vector<function_context> functions;
 };
 

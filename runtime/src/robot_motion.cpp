@@ -50,8 +50,8 @@ robot_motion::robot_motion(const idim_model_interface& model, const Eigen::Vecto
     }
 }
 
-/// States of effects after `dt`, or as a motion starts where it is 0; the simulated transmissions are rigid, so that the
-/// motors move with the links.
+/// States of effects after `dt`, or as a motion starts where it is 0; the simulated transmissions are rigid, so that
+/// the motors move with the links.
 void robot_motion::update_states(double t, double dt) {
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(n_);
     if (signals_.size() >= n_ + model_.n_states + 2 * n_) {
@@ -139,8 +139,7 @@ void robot_motion::constrained_acceleration(const double* q, double t, double* q
     const Eigen::LLT<Eigen::MatrixXd> factors(free);
     // Joints at rest hide an inertia matrix that is not positive definite.
     if (factors.info() != Eigen::Success || Eigen::LLT<Eigen::MatrixXd>(M_).info() != Eigen::Success) {
-        const int joint =
-            model_.forward_dynamics(q, speed_.data(), tau_.data(), t, signals_.data(), chi_.data(), qdd);
+        const int joint = model_.forward_dynamics(q, speed_.data(), tau_.data(), t, signals_.data(), chi_.data(), qdd);
         fail(t, std::clamp<int>(joint, 1, model_.dof) - 1, indefinite);
         result.setZero();
         return;

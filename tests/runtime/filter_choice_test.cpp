@@ -164,8 +164,10 @@ std::string error(const std::vector<log>& logs, const filter_request& request) {
 
 TEST(FilterChoice, WrongRequestsAreInputErrors) {
     const std::vector<log> logs = {sinusoids(1e-4)};
-    EXPECT_EQ(error(logs, {100.0, {}, {}}), "cutoff: 100 Hz is neither 0 (no filter) nor between 0 and half the sampling rate, 100 Hz");
-    EXPECT_EQ(error(logs, {-1.0, {}, {}}), "cutoff: -1 Hz is neither 0 (no filter) nor between 0 and half the sampling rate, 100 Hz");
+    EXPECT_EQ(error(logs, {100.0, {}, {}}),
+              "cutoff: 100 Hz is neither 0 (no filter) nor between 0 and half the sampling rate, 100 Hz");
+    EXPECT_EQ(error(logs, {-1.0, {}, {}}),
+              "cutoff: -1 Hz is neither 0 (no filter) nor between 0 and half the sampling rate, 100 Hz");
     EXPECT_EQ(error(logs, {{}, 13, {}}), "order: 13 is not in 1..12");
     EXPECT_EQ(error(logs, {{}, {}, 0}), "decimation: 0 is not a positive number");
     EXPECT_EQ(error(logs, {{}, {}, {}, 1.0}), "minimum_speed: 1 is not a part of the top speed from 0 to below 1");

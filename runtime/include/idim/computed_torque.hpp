@@ -4,8 +4,8 @@
 
 namespace idim {
 
-/// Computed torque: g v = ID(q, qd, qddr + kd (qdr - qd) + kp (qr - q)) with the generated inverse dynamic model and the
-/// parameters the controller believes in. `model` outlives the law.
+/// Computed torque: g v = ID(q, qd, qddr + kd (qdr - qd) + kp (qr - q)) with the generated inverse dynamic model and
+/// the parameters the controller believes in. `model` outlives the law.
 class computed_torque : public control_law {
   public:
     computed_torque(const idim_model_interface& model, Eigen::VectorXd nominal)

@@ -4,8 +4,8 @@
 
 namespace idim {
 
-/// Proportional position loop around a PI velocity loop: w = kp (qr - q) + kf qdr, v = kv (w - qd) + ki sum((w - qd) T).
-/// The sum stands still while the command is limited.
+/// Proportional position loop around a PI velocity loop: w = kp (qr - q) + kf qdr, v = kv (w - qd) + ki sum((w - qd)
+/// T). The sum stands still while the command is limited.
 class p_position : public control_law {
   public:
     Eigen::VectorXd kp;                 ///< [n] 1/s
