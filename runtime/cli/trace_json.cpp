@@ -119,7 +119,6 @@ json to_json(const effect_trace& trace, const traced_robot& traced) {
             {"steps", steps},
             {"candidates", candidates_json(trace, robot)},
             {"not_identifiable", places_json(trace.not_identifiable, robot)},
-            {"unsupported", places_json(trace.needless, robot)},
             {"unexplained", unexplained_json(trace, robot)}};
 }
 

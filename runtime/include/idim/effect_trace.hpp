@@ -84,7 +84,6 @@ struct effect_trace {
     std::vector<trace_step> steps;
     std::vector<trace_candidate> candidates;
     std::vector<effect_place> not_identifiable;  ///< within the span of the model: no residual can show them
-    std::vector<effect_place> needless;          ///< declared, but the data does not support them
     std::vector<unexplained_structure> unexplained;
     double alignment = 0.0;  ///< torque behind the motion by this part of a sample, taken off [s]
     double tests = 0.0;      ///< candidates and shapes tried in the last round

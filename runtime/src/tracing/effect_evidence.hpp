@@ -31,7 +31,6 @@ struct effect_evidence {
     std::vector<held_back_gain> held_back;  ///< per log held back
     double score = 0.0;  ///< decrease of the weighted squared residual of all logs, less the price of the parameters
     double explained_fraction = 0.0;  ///< of the residual variance of its joints on logs held back
-    std::vector<double> residual_share_moving;
 
     /// Sum over logs in deviations of it.
     double z_all() const;

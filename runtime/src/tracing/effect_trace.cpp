@@ -76,11 +76,6 @@ double explained_fraction(const trace_fit& before, const trace_fit& after, const
     return there > 0.0 ? std::clamp(removed / there, -1.0, 1.0) : 0.0;
 }
 
-/// Joints whose residual an effect changes most: those it is reported at.
-const std::vector<int>& joints_of(const effect_candidate& candidate) {
-    return candidate.joints;
-}
-
 /// Smallest values of the base parameters that make sense: those of effects' coefficients, by name.
 Eigen::VectorXd least_values(const trace_input& input) {
     const idim_model_interface& model = *input.model;
@@ -282,7 +277,7 @@ class tracer {
         trace_step step;
         step.place = {candidate.effect, candidate.joints, candidate.from};
         step.p_value = tried.p_value;
-        step.explained_fraction = explained_fraction(before, after, joints_of(candidate), result_.floor);
+        step.explained_fraction = explained_fraction(before, after, candidate.joints, result_.floor);
         step.confusable_with = confusable_with(before, all, chosen);
         step.before = errors_of(before, true);
         step.after = errors_of(after, true);
