@@ -12,9 +12,6 @@ GiNaC::ex power(const carried_axis& axis, const vector3& force, const vector3& m
     return dot(axis.e, moment) + dot(axis.m, force);
 }
 
-axis_recursion::axis_recursion(symbolic_model& model, const kinematic_tree& tree, const link_axes& axes)
-    : model_(model), tree_(tree), axes_(axes), links_(tree.joints.size()) {}
-
 const carried_axes& axis_recursion::at_link(std::size_t link) {
     if (links_[link].empty()) {
         links_[link] = step(link);

@@ -22,7 +22,8 @@ using carried_axes = std::vector<carried_axis>;
 /// Carries axes outward, link by link, as they are asked for.
 class axis_recursion {
   public:
-    axis_recursion(symbolic_model& model, const kinematic_tree& tree, const link_axes& axes);
+    axis_recursion(symbolic_model& model, const kinematic_tree& tree, const link_axes& axes)
+        : model_(model), tree_(tree), axes_(axes), links_(tree.joints.size()) {}
 
     /// As the link sees them, its own joint's among them.
     const carried_axes& at_link(std::size_t link);
