@@ -4,6 +4,7 @@
 #include <cctype>
 #include <charconv>
 #include <filesystem>
+#include <string_view>
 #include <tuple>
 
 #include "description/identifier.hpp"
@@ -13,6 +14,8 @@
 namespace idim::generator {
 
 namespace {
+
+constexpr std::string_view header_ending = ".hpp";
 
 constexpr std::size_t most_joints = 200;
 constexpr std::size_t most_effects = 1000;
@@ -403,6 +406,13 @@ std::vector<double> read_per_joint(const yaml_value& written, const ordered_join
     return values;
 }
 
+/// A name, or one with .hpp: a header beside the description.
+std::string read_law(const yaml_value& value) {
+    const std::string law = value.text("the name of a control law, or of a header such as my_law.hpp");
+    checked_name(law.ends_with(header_ending) ? law.substr(0, law.size() - header_ending.size()) : law, value.where());
+    return law;
+}
+
 std::optional<control_description> read_control(const yaml_fields& robot, const ordered_joints& ordered) {
     const auto written = robot.find("control");
     if (!written) {
@@ -412,7 +422,7 @@ std::optional<control_description> read_control(const yaml_fields& robot, const 
     control.where = written->where();
     for (const auto& [key, value] : written->entries("a map such as {law: pd_cascade, rate: 200, kp: 10, kv: 1}")) {
         if (key == "law") {
-            control.law = checked_name(value.text("the name of a control law"), value.where());
+            control.law = read_law(value);
         } else if (key == "rate") {
             control.rate = read_positive(value);
         } else if (key == "delay") {
@@ -585,6 +595,10 @@ robot_description read_yaml_robot(const std::string& file) {
 }
 
 }  // namespace
+
+bool is_header(const control_description& control) {
+    return control.law.ends_with(header_ending);
+}
 
 bool has_own_coordinate(const joint_description& joint) {
     if (joint.type == joint_type::fixed) {

@@ -57,13 +57,16 @@ struct effect_use {
 
 /// How the robot is controlled; read and checked where a simulation needs it.
 struct control_description {
-    std::string law;
+    std::string law;    ///< a name, or a header beside the description, such as my_law.hpp
     double rate = 0.0;  ///< [Hz]
     std::map<std::string, std::vector<double>>
         values;          ///< wn, zeta, kp, kv, saturation ...: one number per driven joint
     double delay = 0.0;  ///< [s]
     input_location where;
 };
+
+/// Whether the law is the user's own.
+bool is_header(const control_description& control);
 
 /// What the user wrote, checked for form but not for meaning: the only stage that knows the file format (FORMATS.md).
 struct robot_description {

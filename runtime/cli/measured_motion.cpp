@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 #include "catalogue/effect_library.hpp"
 #include "idim/input_error.hpp"
@@ -12,23 +10,12 @@
 
 namespace idim::cli {
 
-namespace {
-
-std::string read_text(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
-
-}  // namespace
-
 compiled_model compile_files(const std::vector<generator::rendered_file>& files, const std::string& input_hash) {
     std::vector<model_source> sources;
     for (const generator::rendered_file& file : files) {
         sources.push_back({file.name, file.text});
     }
-    sources.push_back({"idim/model_interface.h", read_text(include_folder() + "/idim/model_interface.h")});
+    sources.push_back(interface_header("idim/model_interface.h"));
     return compile_model(sources, input_hash);
 }
 
@@ -45,7 +32,7 @@ compiled_effects load_effects(const std::string& robot_file) {
     for (const generator::rendered_file& file : library.files) {
         sources.push_back({file.name, file.text});
     }
-    sources.push_back({"idim/effect_interface.h", read_text(include_folder() + "/idim/effect_interface.h")});
+    sources.push_back(interface_header("idim/effect_interface.h"));
     return compile_effects(sources);
 }
 

@@ -57,13 +57,17 @@ void copy_beside(const fs::path& from, const fs::path& folder) {
     }
 }
 
-/// Effects of the robot's own and the URDF stand where the description looks for them.
+/// Effects of the robot's own, its control law and the URDF stand where the description looks for them.
 void copy_what_it_names(const std::string& robot_file, const fs::path& folder) {
     const fs::path beside = fs::path(robot_file).has_parent_path() ? fs::path(robot_file).parent_path() : fs::path(".");
     if (fs::equivalent(beside, folder)) {
         return;
     }
-    for (const generator::effect_use& use : generator::read_robot(robot_file).effects) {
+    const generator::robot_description robot = generator::read_robot(robot_file);
+    if (robot.control && generator::is_header(*robot.control) && fs::exists(beside / robot.control->law)) {
+        copy_beside(beside / robot.control->law, folder);
+    }
+    for (const generator::effect_use& use : robot.effects) {
         for (const fs::path& own : {beside / (use.effect + ".yaml"), beside / "effects" / (use.effect + ".yaml")}) {
             if (fs::exists(own)) {
                 copy_beside(own, folder);

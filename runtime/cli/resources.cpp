@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "description/text_file.hpp"
 #include "idim/input_error.hpp"
 
 namespace idim::cli {
@@ -35,8 +36,10 @@ std::string templates_folder() {
                        is_given ? "the templates that IDIM_TEMPLATES names" : "the templates");
 }
 
-std::string include_folder() {
-    return folder_with(prefix() / "include", "idim/model_interface.h", "the runtime's headers");
+model_source interface_header(const std::string& name) {
+    constexpr std::size_t largest = 1'000'000;
+    const std::string folder = folder_with(prefix() / "include", name.c_str(), "the runtime's headers");
+    return {name, generator::read_text_file(folder + "/" + name, largest)};
 }
 
 }  // namespace idim::cli

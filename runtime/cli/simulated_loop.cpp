@@ -10,7 +10,6 @@
 #include "description/robot_description.hpp"
 #include "idim/control_law.hpp"
 #include "idim/input_error.hpp"
-#include "idim/law_declaration.hpp"
 #include "idim/pd_cascade.hpp"
 #include "idim/simulation.hpp"
 #include "idim/zero_phase_filter.hpp"
@@ -216,8 +215,7 @@ simulated_loops simulated_loops_of(const loaded_robot& robot, const std::string&
     if (request.bandwidth_scale != 1.0 && control.values.count("wn") == 0) {
         throw input_error({"", 0, "--bandwidth-scale"}, "needs a control law that declares wn");
     }
-    return declared_loops(model, {control.law, control.rate, control.delay, control.values, control.where},
-                          request.bandwidth_scale, a_priori);
+    return declared_loops(model, law_declaration_of(control), request.bandwidth_scale, a_priori);
 }
 
 }  // namespace idim::cli

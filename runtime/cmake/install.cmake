@@ -6,7 +6,10 @@ include(CMakePackageConfigHelpers)
 
 install(TARGETS idim RUNTIME DESTINATION bin COMPONENT command)
 install(DIRECTORY templates robots DESTINATION share/idim COMPONENT command)
-install(FILES runtime/include/idim/model_interface.h DESTINATION include/idim COMPONENT command)
+foreach(header model_interface.h effect_interface.h law_interface.h law_adapter.hpp) # what the command compiles with
+  install(FILES runtime/include/idim/${header} DESTINATION include/idim COMPONENT command)
+  list(APPEND IDIM_HEADERS_OF_COMMAND PATTERN ${header} EXCLUDE)
+endforeach()
 install(FILES README.md DESTINATION share/doc/idim COMPONENT command)
 execute_process(COMMAND gzip -9nc ${PROJECT_SOURCE_DIR}/runtime/cli/idim.1 OUTPUT_FILE ${PROJECT_BINARY_DIR}/idim.1.gz
                 COMMAND_ERROR_IS_FATAL ANY)
@@ -25,7 +28,7 @@ install(TARGETS idim_runtime EXPORT idim-runtime ARCHIVE DESTINATION ${CMAKE_INS
         INCLUDES DESTINATION include)
 install(EXPORT idim-runtime FILE idim-runtime-targets.cmake NAMESPACE idim:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/idim
         COMPONENT development)
-install(DIRECTORY runtime/include/ DESTINATION include COMPONENT development PATTERN model_interface.h EXCLUDE)
+install(DIRECTORY runtime/include/ DESTINATION include COMPONENT development ${IDIM_HEADERS_OF_COMMAND})
 file(RELATIVE_PATH IDIM_PREFIX_FROM_PKGCONFIG /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 string(REGEX REPLACE "/$" "" IDIM_PREFIX_FROM_PKGCONFIG "${IDIM_PREFIX_FROM_PKGCONFIG}")
 configure_file(runtime/cmake/idim.pc.in ${PROJECT_BINARY_DIR}/package/idim.pc @ONLY)

@@ -54,11 +54,15 @@ compiled_model load_model(const std::string& bytes, const std::string& input_has
     return compiled_model(std::move(library), model);
 }
 
-compiled_effects load_effects(const std::string& bytes) {
-    std::shared_ptr<void> library = load_library(bytes);
-    const auto* const table = handshake_of<idim_effect_table>(library, "idim_effects");
-    check_abi(table->abi, IDIM_EFFECT_ABI);
-    return compiled_effects(std::move(library), table);
+/// Gives a loader of the table that `function` hands out.
+template <class Table>
+auto table_loader(const char* function, int abi) {
+    return [function, abi](const std::string& bytes) {
+        std::shared_ptr<void> library = load_library(bytes);
+        const auto* const table = handshake_of<Table>(library, function);
+        check_abi(table->abi, abi);
+        return compiled_table<Table>(std::move(library), table);
+    };
 }
 
 template <class Load>
@@ -102,7 +106,11 @@ compiled_model compile_model(const std::vector<model_source>& sources, const std
 }
 
 compiled_effects compile_effects(const std::vector<model_source>& sources, const compile_options& options) {
-    return compile_sources(sources, options, [](const std::string& bytes) { return load_effects(bytes); });
+    return compile_sources(sources, options, table_loader<idim_effect_table>("idim_effects", IDIM_EFFECT_ABI));
+}
+
+compiled_law compile_law(const std::vector<model_source>& sources, const compile_options& options) {
+    return compile_sources(sources, options, table_loader<idim_law_table>("idim_law", IDIM_LAW_ABI));
 }
 
 }  // namespace idim

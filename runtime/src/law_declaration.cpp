@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "idim/computed_torque.hpp"
@@ -10,6 +11,7 @@
 #include "idim/p_position.hpp"
 #include "idim/pd_cascade.hpp"
 #include "idim/pid.hpp"
+#include "idim/user_law.hpp"
 
 namespace idim {
 
@@ -23,12 +25,17 @@ class declared_values {
     bool has(const std::string& name) const { return declaration_.values.count(name) != 0; }
 
     /// Throws input_error where it is missing or not positive.
-    Eigen::VectorXd positive(const std::string& name) { return at_least(name, true); }
+    Eigen::VectorXd positive(const std::string& name) {
+        return checked(name, std::numeric_limits<double>::denorm_min(), " above zero");
+    }
 
     /// Zero or more; zero where it is missing.
     Eigen::VectorXd optional(const std::string& name) {
-        return has(name) ? at_least(name, false) : Eigen::VectorXd::Zero(dof_);
+        return has(name) ? checked(name, 0.0, " of zero or more") : Eigen::VectorXd::Zero(dof_);
     }
+
+    /// Throws input_error where it is missing; of any sign.
+    Eigen::VectorXd any(const std::string& name) { return checked(name, std::numeric_limits<double>::lowest(), ""); }
 
     void refuse_others() const {
         for (const auto& [name, values] : declaration_.values) {
@@ -46,7 +53,7 @@ class declared_values {
     }
 
   private:
-    Eigen::VectorXd at_least(const std::string& name, bool above_zero) {
+    Eigen::VectorXd checked(const std::string& name, double least, const char* expected) {
         used_.insert(name);
         const auto found = declaration_.values.find(name);
         if (found == declaration_.values.end()) {
@@ -57,9 +64,8 @@ class declared_values {
             throw input_error(field(name), fmt::format("{} values, expected {}", found->second.size(), dof_));
         }
         for (const double value : found->second) {
-            if (!std::isfinite(value) || value < 0.0 || (above_zero && value == 0.0)) {
-                throw input_error(field(name), fmt::format("{} given, expected numbers {}", value,
-                                                           above_zero ? "above zero" : "of zero or more"));
+            if (!std::isfinite(value) || value < least) {
+                throw input_error(field(name), fmt::format("{} given, expected finite numbers{}", value, expected));
             }
         }
         return Eigen::Map<const Eigen::VectorXd>(found->second.data(), dof_);
@@ -134,8 +140,19 @@ std::unique_ptr<control_law> make_computed_torque(declared_values& values, const
     return law;
 }
 
+std::unique_ptr<control_law> make_user_law(const std::shared_ptr<const compiled_law>& code, declared_values& values) {
+    std::vector<Eigen::VectorXd> given;
+    for (int k = 0; k < code->table().n_values; ++k) {
+        given.push_back(values.any(code->table().value_names[k]));
+    }
+    return std::make_unique<user_law>(code, std::move(given));
+}
+
 std::unique_ptr<control_law> make_named(const law_declaration& declaration, declared_values& values,
                                         const idim_model_interface& model, const Eigen::VectorXd& chi) {
+    if (declaration.own) {
+        return make_user_law(declaration.own, values);
+    }
     if (declaration.law == "pd_cascade") {
         return make_pd_cascade(values);
     }
@@ -152,7 +169,7 @@ std::unique_ptr<control_law> make_named(const law_declaration& declaration, decl
         return make_emps(values);
     }
     throw input_error(values.field("law"), fmt::format("{} given, expected pd_cascade, pid, p_position, "
-                                                       "computed_torque or emps",
+                                                       "computed_torque, emps or a header such as my_law.hpp",
                                                        declaration.law));
 }
 

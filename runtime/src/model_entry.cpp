@@ -17,7 +17,7 @@ constexpr const char* exports_name = "model.exports";
 // Everything else is hidden: the names in a generated header are inline variables, which g++ makes one per process
 // (STB_GNU_UNIQUE) even under RTLD_LOCAL, so that a second model of the same robot would read those of the first.
 // -Bsymbolic does not bind such symbols, and clang has no -fno-gnu-unique.
-constexpr const char* exports = "{ global: idim_model; idim_effects; local: *; };\n";
+constexpr const char* exports = "{ global: idim_model; idim_effects; idim_law; local: *; };\n";
 
 bool is_inside(const std::string& name) {
     const std::filesystem::path path(name);

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -34,7 +34,6 @@ robot_motion::robot_motion(const idim_model_interface& model, const Eigen::Vecto
       speed_(qd),
       N_(n_),
       holding_(n_),
-      M_(n_, n_),
       x_(2 * static_cast<std::size_t>(n_)),
       side_(static_cast<std::size_t>(n_), side::open),
       controlled_(controller::error_checker_type(options.tolerance, options.tolerance)) {
@@ -105,47 +104,69 @@ bool robot_motion::any_rest() const {
     return std::find(side_.begin(), side_.end(), side::rest) != side_.end();
 }
 
-void robot_motion::regularised_bias(const double* q, const double* qd, double t) {
+/// Friction linear in the speed between -band and band: what the model's own N has too much there goes to the torque.
+void robot_motion::regularised_acceleration(const double* q, const double* qd, double t, double* qdd) {
     const Eigen::Map<const Eigen::VectorXd> real(qd, n_);
+    const auto bias = [&](Eigen::VectorXd& N) {
+        model_.bias(q, speed_.data(), t, signals_.data(), chi_.data(), N.data());
+    };
     speed_ = (real.array().abs() < options_.band).select(0.0, real);
-    model_.bias(q, speed_.data(), t, signals_.data(), chi_.data(), N_.data());
-    const Eigen::VectorXd at_zero = N_;
-    Eigen::VectorXd total = N_;
+    Eigen::VectorXd at_zero(n_);
+    bias(at_zero);
+    Eigen::VectorXd tau = tau_;
     for (Eigen::Index j = 0; j < n_; ++j) {
         if (std::abs(qd[j]) < options_.band && qd[j] != 0.0) {
             speed_[j] = std::copysign(options_.band, qd[j]);
-            model_.bias(q, speed_.data(), t, signals_.data(), chi_.data(), N_.data());
+            bias(N_);
             speed_[j] = 0.0;
-            total += (N_ - at_zero) * (std::abs(qd[j]) / options_.band);
+            tau -= (N_ - at_zero) * (std::abs(qd[j]) / options_.band);
         }
     }
-    N_ = total;
+    free_acceleration(q, t, tau, qdd);
 }
 
-/// M qdd + N = tau + holding, with qdd = 0 where a joint rests and holding = 0 elsewhere. N_ is given.
-void robot_motion::constrained_acceleration(const double* q, double t, double* qdd) {
-    model_.mass_matrix(q, chi_.data(), M_.data());
-    Eigen::MatrixXd free = M_;
-    Eigen::VectorXd force = tau_ - N_;
+void robot_motion::free_acceleration(const double* q, double t, const Eigen::VectorXd& tau, double* qdd) {
+    const int joint = model_.forward_dynamics(q, speed_.data(), tau.data(), t, signals_.data(), chi_.data(), qdd);
+    if (joint != 0) {
+        fail(t, std::clamp<int>(joint, 1, model_.dof) - 1, indefinite);
+        std::fill(qdd, qdd + n_, 0.0);
+    }
+}
+
+/// The torques that keep resting joints where they are: M qdd + N + holding = tau, with qdd = 0 where a joint rests and
+/// holding = 0 elsewhere. Newton's method on the direct model, which is affine in the torque but for effects of the
+/// load.
+void robot_motion::held_acceleration(const double* q, double t, double* qdd) {
+    std::vector<Eigen::Index> rest;
     for (Eigen::Index j = 0; j < n_; ++j) {
         if (side_[static_cast<std::size_t>(j)] == side::rest) {
-            free.row(j).setZero();
-            free.col(j).setZero();
-            free(j, j) = 1.0;
-            force[j] = 0.0;
+            rest.push_back(j);
         }
     }
     Eigen::Map<Eigen::VectorXd> result(qdd, n_);
-    const Eigen::LLT<Eigen::MatrixXd> factors(free);
-    // Joints at rest hide an inertia matrix that is not positive definite.
-    if (factors.info() != Eigen::Success || Eigen::LLT<Eigen::MatrixXd>(M_).info() != Eigen::Success) {
-        const int joint = model_.forward_dynamics(q, speed_.data(), tau_.data(), t, signals_.data(), chi_.data(), qdd);
-        fail(t, std::clamp<int>(joint, 1, model_.dof) - 1, indefinite);
-        result.setZero();
+    Eigen::VectorXd moved(n_);
+    Eigen::MatrixXd slope(rest.size(), rest.size());
+    free_acceleration(q, t, tau_, qdd);
+    for (std::size_t k = 0; k < rest.size(); ++k) {
+        Eigen::VectorXd more = tau_;
+        more[rest[k]] += 1.0;
+        free_acceleration(q, t, more, moved.data());
+        slope.col(static_cast<Eigen::Index>(k)) = (moved - result)(rest);
+    }
+    holding_.setZero();
+    if (failure_) {
         return;
     }
-    result = factors.solve(force);
-    holding_ = tau_ - N_ - M_ * result;
+    const Eigen::PartialPivLU<Eigen::MatrixXd> factors(slope);
+    constexpr int most = 4;
+    for (int i = 0; i < most && result(rest).norm() > 1e-12 * (1.0 + result.norm()); ++i) {
+        const Eigen::VectorXd correction = factors.solve(Eigen::VectorXd(result(rest)));
+        for (std::size_t k = 0; k < rest.size(); ++k) {
+            holding_[rest[k]] += correction[static_cast<Eigen::Index>(k)];
+        }
+        free_acceleration(q, t, tau_ - holding_, qdd);
+    }
+    result(rest).setZero();
 }
 
 void robot_motion::derivative(const state& x, state& dxdt, double t) {
@@ -154,20 +175,14 @@ void robot_motion::derivative(const state& x, state& dxdt, double t) {
     double* const qdd = dxdt.data() + n_;
     std::copy(qd, qd + n_, dxdt.begin());
     if (options_.friction == friction_handling::regularised) {
-        regularised_bias(q, qd, t);
-        constrained_acceleration(q, t, qdd);
+        regularised_acceleration(q, qd, t, qdd);
         return;
     }
     freeze(qd);
     if (any_rest()) {
-        model_.bias(q, speed_.data(), t, signals_.data(), chi_.data(), N_.data());
-        constrained_acceleration(q, t, qdd);
-        return;
-    }
-    const int joint = model_.forward_dynamics(q, speed_.data(), tau_.data(), t, signals_.data(), chi_.data(), qdd);
-    if (joint != 0) {
-        fail(t, std::clamp<int>(joint, 1, model_.dof) - 1, indefinite);
-        std::fill(qdd, qdd + n_, 0.0);
+        held_acceleration(q, t, qdd);
+    } else {
+        free_acceleration(q, t, tau_, qdd);
     }
 }
 

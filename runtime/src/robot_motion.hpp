@@ -34,8 +34,9 @@ class robot_motion {
 
     void update_states(double t, double dt);
     void derivative(const state& x, state& dxdt, double t);
-    void constrained_acceleration(const double* q, double t, double* qdd);
-    void regularised_bias(const double* q, const double* qd, double t);
+    void free_acceleration(const double* q, double t, const Eigen::VectorXd& tau, double* qdd);
+    void held_acceleration(const double* q, double t, double* qdd);
+    void regularised_acceleration(const double* q, const double* qd, double t, double* qdd);
     void freeze(const double* qd);
     double bias_of(int joint, double speed, double t);
     bool has_jump(int joint);
@@ -54,7 +55,6 @@ class robot_motion {
     integration_options options_;
     Eigen::Index n_;
     Eigen::VectorXd signals_, tau_, speed_, N_, holding_;
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> M_;
     state x_, before_, trial_;
     std::vector<side> side_;
     std::vector<bool> jumps_;

@@ -116,7 +116,7 @@ class sensors {
           torque_(noise.torque, n, noise.torque_correlation, period) {}
 
     Eigen::VectorXd position(const Eigen::VectorXd& q) { return quantised(q + position_(random_), noise_.resolution); }
-    Eigen::VectorXd torque(const Eigen::VectorXd& tau) { return tau + torque_(random_); }
+    Eigen::VectorXd torque_noise() { return torque_(random_); }
     Eigen::VectorXd velocity(const Eigen::VectorXd& qd) {
         return noise_.velocity.size() == 0 ? qd : Eigen::VectorXd(qd + random_(noise_.velocity));
     }
@@ -126,6 +126,17 @@ class sensors {
     gaussian random_;
     coloured_noise position_, torque_;
 };
+
+/// The torque as a drive records it that is `delay` [n, s] late; before the first sample it was what it is there.
+Eigen::MatrixXd late(const log& clean, const double* delay) {
+    Eigen::MatrixXd tau = clean.tau;
+    for (Eigen::Index j = 0; j < tau.cols() && delay != nullptr && clean.samples() > 1; ++j) {
+        for (Eigen::Index k = 0; k < tau.rows() && delay[j] != 0.0; ++k) {
+            tau(k, j) = signal_at(clean, clean.tau, clean.t[k] - delay[j])[j];
+        }
+    }
+    return tau;
+}
 
 Eigen::VectorXd either(const Eigen::VectorXd& given, const Eigen::VectorXd& usual) {
     return given.size() > 0 ? given : usual;
@@ -151,6 +162,7 @@ simulated_motion simulate(const simulated_loop_setup& setup) {
     robot_motion robot(setup.model, setup.chi, setup.integration,
                        either(setup.start_position, signal_at(reference, reference.qr, start)),
                        either(setup.start_velocity, Eigen::VectorXd::Zero(n)));
+    Eigen::MatrixXd torque_noise(samples, n);
     Eigen::VectorXd held;  // torque of the period that ends
     control_sample sample;
     for (Eigen::Index k = 0; k < samples; ++k) {
@@ -163,7 +175,8 @@ simulated_motion simulate(const simulated_loop_setup& setup) {
         if (!robot.failure()) {
             motion.measured.t[k] = motion.truth.t[k] = sample.t;
             motion.measured.q.row(k) = sample.q;
-            motion.measured.tau.row(k) = seen.torque(0.5 * (either(held, tau) + tau));
+            motion.measured.tau.row(k) = 0.5 * (either(held, tau) + tau);
+            torque_noise.row(k) = seen.torque_noise();
             motion.measured.qr.row(k) = sample.qr;
             motion.truth.q.row(k) = robot.q();
             motion.truth.qd.row(k) = robot.qd();
@@ -176,10 +189,12 @@ simulated_motion simulate(const simulated_loop_setup& setup) {
             const Eigen::Index good = motion.failure->time > sample.t ? k + 1 : k;
             shorten(motion.measured, good);
             shorten(motion.truth, good);
-            return motion;
+            break;
         }
         held = tau;
     }
+    motion.measured.tau =
+        late(motion.measured, setup.model.torque_delay) + torque_noise.topRows(motion.measured.samples());
     return motion;
 }
 

@@ -111,6 +111,21 @@ TEST(Simulation, TheLoggedTorqueIsNeitherEarlyNorLate) {
     EXPECT_LT(with_mean, 1e-6 * with_command);
 }
 
+TEST(Simulation, TheTorqueIsRecordedAsLateAsItsDriveIs) {
+    idim_model_interface model = rail();
+    const Eigen::VectorXd chi = (Eigen::VectorXd(3) << 2.0, 1.0, 0.0).finished();
+    const auto law = idim::tune_pd_cascade(1000.0, one(3.0), one(1.0), one(2.0), one(1.0));
+    const auto motion = idim::simulate(model, chi, law, step_reference(0.5, 2.0), no_noise());
+    const double late[] = {0.0125};  // twelve samples and a half
+    model.torque_delay = late;
+    const auto delayed = idim::simulate(model, chi, law, step_reference(0.5, 2.0), no_noise());
+    EXPECT_EQ(delayed.measured.q, motion.measured.q);
+    const Eigen::MatrixXd& tau = motion.measured.tau;
+    for (Eigen::Index k = 13; k < tau.rows(); ++k) {
+        EXPECT_NEAR(delayed.measured.tau(k, 0), 0.5 * (tau(k - 12, 0) + tau(k - 13, 0)), 1e-12 * tau.norm()) << k;
+    }
+}
+
 TEST(Simulation, NoiseHasTheGivenDeviationAndTheSameSeedGivesTheSameLog) {
     const idim_model_interface model = rail();
     const Eigen::VectorXd chi = (Eigen::VectorXd(3) << 3.0, 1.0, 0.5).finished();
@@ -207,6 +222,47 @@ TEST(Simulation, AJointHoldsAgainstLessThanItsFrictionAndBreaksAwayBeyondIt) {
     EXPECT_EQ(motion.truth.q(500, 0), 0.0);
     EXPECT_EQ(motion.truth.q(501, 0), 0.0);  // the command of 5.01 N is only given at this sample
     EXPECT_GT(motion.truth.q(502, 0), 0.0);
+}
+
+/// Two coupled joints, M = [[3, 1], [1, 2]] and a load of 4 at the second from t = 1 on; the first has friction of 50
+/// and its drive records 1.25 times the torque.
+int loaded_pair(const double*, const double* qd, const double* tau, double t, const double*, const double*,
+                double* qdd) {
+    const double first = tau[0] / 1.25 - 50.0 * (static_cast<double>(qd[0] > 0) - static_cast<double>(qd[0] < 0));
+    const double m22 = t < 1.0 ? 2.0 : 6.0;
+    const double det = 3.0 * m22 - 1.0;
+    qdd[0] = (m22 * first - tau[1]) / det;
+    qdd[1] = (3.0 * tau[1] - first) / det;
+    return 0;
+}
+
+TEST(Simulation, AJointAtRestHoldsWhileALoadComesOnAtAnother) {
+    // With the first joint held the second is a mass of 2, then of 6, whatever the drive of the first records.
+    idim_model_interface model = rail();
+    static const char* const names[] = {"held", "free"};
+    model.dof = 2;
+    model.joint_names = names;
+    model.mass_matrix = nullptr;
+    model.forward_dynamics = loaded_pair;
+    model.bias = [](const double*, const double* qd, double, const double*, const double*, double* N) {
+        N[0] = 62.5 * (static_cast<double>(qd[0] > 0) - static_cast<double>(qd[0] < 0));
+        N[1] = 0.0;
+    };
+    idim::pd_cascade law;
+    law.rate = 100.0;
+    law.drive_gain = law.kp = Eigen::Vector2d(1.0, 1.0);
+    law.kv = Eigen::Vector2d(0.0, 1.0);
+    idim::log reference;
+    reference.t = Eigen::Vector2d(0.0, 2.0);
+    reference.qr = (Eigen::Matrix2d() << 0.0, 0.3, 0.0, 0.3).finished();
+    const Eigen::VectorXd chi = Eigen::VectorXd::Zero(3);
+    const auto motion = idim::simulate({model, chi, law, reference});
+    ASSERT_FALSE(motion.failure.has_value());
+    EXPECT_EQ(motion.truth.q.col(0), Eigen::VectorXd::Zero(motion.truth.samples()));
+    for (const Eigen::Index k : {0, 50, 99, 100, 150}) {
+        const double mass = motion.truth.t[k] < 1.0 ? 2.0 : 6.0;
+        EXPECT_NEAR(motion.truth.qdd(k, 1), motion.truth.tau(k, 1) / mass, 1e-12) << k;
+    }
 }
 
 TEST(Simulation, ColouredNoiseKeepsItsDeviationAndItsCorrelationTime) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "idim/effect_interface.h"
+#include "idim/law_interface.h"
 #include "idim/model_interface.h"
 
 namespace idim {
@@ -28,18 +29,22 @@ class compiled_model {
     const idim_model_interface* model_;
 };
 
-/// Generated effects, compiled and loaded likewise.
-class compiled_effects {
+/// Other generated or written code, compiled and loaded likewise: the table of functions that it exports.
+template <class Table>
+class compiled_table {
   public:
-    explicit compiled_effects(std::shared_ptr<void> library, const idim_effect_table* table)
+    explicit compiled_table(std::shared_ptr<void> library, const Table* table)
         : library_(std::move(library)), table_(table) {}
 
-    const idim_effect_table& table() const { return *table_; }
+    const Table& table() const { return *table_; }
 
   private:
     std::shared_ptr<void> library_;
-    const idim_effect_table* table_;
+    const Table* table_;
 };
+
+using compiled_effects = compiled_table<idim_effect_table>;
+using compiled_law = compiled_table<idim_law_table>;
 
 /// Where and how models are compiled; every field has a default.
 struct compile_options {
@@ -58,7 +63,8 @@ struct compile_options {
 compiled_model compile_model(const std::vector<model_source>& sources, const std::string& input_hash,
                              const compile_options& options = {});
 
-/// The same for the source of generated effects.
+/// The same for the source of generated effects, and for that of a control law (law_interface.h).
 compiled_effects compile_effects(const std::vector<model_source>& sources, const compile_options& options = {});
+compiled_law compile_law(const std::vector<model_source>& sources, const compile_options& options = {});
 
 }  // namespace idim

@@ -68,8 +68,9 @@ struct simulated_loop_setup {
 
 /// Closed loop of the direct dynamic model and a sampled control law: the drive holds its torque for one period while
 /// the robot moves on. The logged torque is the mean of the torques held before and after the sample, as a filtered
-/// current measurement gives: the command alone would lead the motion by half a period. An inertia matrix that is not
-/// positive definite, or a motion that diverges, ends the simulation with a failure that names time and joint.
+/// current measurement gives: the command alone would lead the motion by half a period; a joint's torque_delay is
+/// added. Transmissions are taken as rigid (joint_stiffness is not simulated). An inertia matrix that is not positive
+/// definite, or a motion that diverges, ends the simulation with a failure that names time and joint.
 simulated_motion simulate(const simulated_loop_setup& setup);
 
 /// The same from rest at the reference; throws data_error with the failure's message. `substeps` as in

@@ -13,6 +13,11 @@ namespace idim::bench {
 
 using row_major = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+/// Motion of many samples, one a row.
+struct motion_samples {
+    Eigen::MatrixXd q, qd, qdd;  ///< [samples x joints]
+};
+
 /// One way to evaluate the dynamics of the rigid links of a serial robot. Everything that can be set up once is set up
 /// by the constructor.
 class engine {
@@ -24,6 +29,10 @@ class engine {
     virtual void forward_dynamics(const test::joint_state& state, const Eigen::VectorXd& tau, Eigen::VectorXd& qdd) = 0;
     /// Columns of the engine's own parameters. Returns false where it has no regressor.
     virtual bool regressor(const test::joint_state&, row_major&) { return false; }
+    /// The same of many samples at once: tau [samples x joints], W [samples x joints * parameters]. False where there
+    /// is no such form.
+    virtual bool inverse_dynamics(const motion_samples&, Eigen::MatrixXd&) { return false; }
+    virtual bool regressor(const motion_samples&, Eigen::MatrixXd&) { return false; }
     /// Parameters that the columns of its regressor belong to.
     virtual Eigen::VectorXd parameters() const { return {}; }
 };

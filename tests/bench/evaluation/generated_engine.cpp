@@ -1,18 +1,21 @@
 #include <stdexcept>
 
 #include "evaluation/engine.hpp"
+#include "kuka_lwr/batch.hpp"
 #include "kuka_lwr/forward_dynamics.hpp"
 #include "kuka_lwr/inverse_dynamics.hpp"
 #include "kuka_lwr/mass_matrix.hpp"
 #include "kuka_lwr/model.hpp"
 #include "kuka_lwr/regressor.hpp"
 #include "kuka_lwr/regroup.hpp"
+#include "rx90/batch.hpp"
 #include "rx90/forward_dynamics.hpp"
 #include "rx90/inverse_dynamics.hpp"
 #include "rx90/mass_matrix.hpp"
 #include "rx90/model.hpp"
 #include "rx90/regressor.hpp"
 #include "rx90/regroup.hpp"
+#include "scara/batch.hpp"
 #include "scara/forward_dynamics.hpp"
 #include "scara/inverse_dynamics.hpp"
 #include "scara/mass_matrix.hpp"
@@ -39,6 +42,21 @@ Eigen::VectorXd regrouped(const rigid_robot& robot, const std::array<const char*
     return chi;
 }
 
+std::size_t stride(const Eigen::MatrixXd& array) {
+    return static_cast<std::size_t>(array.rows());
+}
+
+template <typename Samples>
+Samples packed(const motion_samples& all) {
+    Samples samples;
+    samples.count = stride(all.q);
+    samples.stride = stride(all.q);
+    samples.q = all.q.data();
+    samples.qd = all.qd.data();
+    samples.qdd = all.qdd.data();
+    return samples;
+}
+
 }  // namespace
 
 // One class for each robot: the functions differ by namespace only.
@@ -63,6 +81,18 @@ Eigen::VectorXd regrouped(const rigid_robot& robot, const std::array<const char*
         bool regressor(const test::joint_state& s, row_major& W) override {                                            \
             W.resize(s.q.size(), chi_.size());                                                                         \
             idim_models::robot_name::regressor(s.q.data(), s.qd.data(), s.qdd.data(), W.data());                       \
+            return true;                                                                                               \
+        }                                                                                                              \
+        bool inverse_dynamics(const motion_samples& all, Eigen::MatrixXd& tau) override {                              \
+            tau.resize(all.q.rows(), all.q.cols());                                                                    \
+            idim_models::robot_name::inverse_dynamics_batch(packed<idim_models::robot_name::batch_samples>(all),       \
+                                                            chi_.data(), tau.data(), stride(tau));                     \
+            return true;                                                                                               \
+        }                                                                                                              \
+        bool regressor(const motion_samples& all, Eigen::MatrixXd& W) override {                                       \
+            W.resize(all.q.rows(), all.q.cols() * chi_.size());                                                        \
+            idim_models::robot_name::regressor_batch(packed<idim_models::robot_name::batch_samples>(all), W.data(),    \
+                                                     stride(W));                                                       \
             return true;                                                                                               \
         }                                                                                                              \
         Eigen::VectorXd parameters() const override { return chi_; }                                                   \

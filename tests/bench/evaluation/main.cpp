@@ -1,5 +1,5 @@
 // Nanoseconds per call of the generated code beside two libraries and a textbook recursion, one process, one core, the
-// same states; the engines have to agree first.
+// same states; then those per sample of its batch form. The engines have to agree first.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@ namespace idim::bench {
 
 namespace {
 
-constexpr int states = 64;
+constexpr int states = 1024;
 
 rigid_robot read(const std::string& name) {
     const std::string file = std::string(IDIM_SOURCE_DIR) + "/robots/" + name + "/" + name + ".yaml";
@@ -36,6 +36,38 @@ std::vector<test::joint_state> draw(Eigen::Index n) {
 void require_agreement(const std::string& what, const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
     if (!((a - b).norm() <= 1e-8 * (1.0 + b.norm()))) {
         throw std::runtime_error(what + " differs between the engines");
+    }
+}
+
+motion_samples stacked(const std::vector<test::joint_state>& all) {
+    const auto rows = static_cast<Eigen::Index>(all.size());
+    const Eigen::Index n = all.front().q.size();
+    motion_samples result{Eigen::MatrixXd(rows, n), Eigen::MatrixXd(rows, n), Eigen::MatrixXd(rows, n)};
+    for (Eigen::Index k = 0; k < rows; ++k) {
+        const test::joint_state& s = all[static_cast<std::size_t>(k)];
+        result.q.row(k) = s.q;
+        result.qd.row(k) = s.qd;
+        result.qdd.row(k) = s.qdd;
+    }
+    return result;
+}
+
+void check_batch(engine& e, const std::vector<test::joint_state>& all) {
+    Eigen::MatrixXd tau, W;
+    const motion_samples samples = stacked(all);
+    if (!e.inverse_dynamics(samples, tau) || !e.regressor(samples, W)) {
+        return;
+    }
+    const Eigen::Index n = samples.q.cols();
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const auto row = static_cast<Eigen::Index>(k);
+        Eigen::VectorXd expected(n);
+        row_major expected_W(n, e.parameters().size());
+        e.inverse_dynamics(all[k], expected);
+        e.regressor(all[k], expected_W);
+        require_agreement(e.name() + ": torque of a batch", tau.row(row).transpose(), expected);
+        require_agreement(e.name() + ": regressor of a batch", W.row(row).transpose(),
+                          expected_W.reshaped<Eigen::RowMajor>());
     }
 }
 
@@ -109,6 +141,39 @@ void print(const std::vector<std::string>& robots, const std::vector<std::string
     }
 }
 
+/// Nanoseconds per sample of the batch form beside those of one call.
+void print_batch(const std::vector<std::string>& robots, const std::string& name,
+                 const std::map<std::string, double>& nanoseconds) {
+    fmt::print("\n{:<12} {:<18} {:>20} {:>20}\n", "robot", "ns per sample", name, "in a batch");
+    for (const std::string& robot : robots) {
+        for (const std::string what : {"1 inverse dynamics", "2 regressor"}) {
+            const double one = nanoseconds.at(robot + "/" + what + "/" + name);
+            const double batch = nanoseconds.at(robot + "/" + what + "/batch") / states;
+            fmt::print("{:<12} {:<18} {:>20.0f} {:>20}\n", robot, what.substr(2), one,
+                       fmt::format("{:.0f} ({:.2f}x)", batch, batch / one));
+        }
+    }
+}
+
+void register_batch(const std::string& robot, const std::shared_ptr<engine>& e,
+                    const std::vector<test::joint_state>& all) {
+    const auto samples = std::make_shared<motion_samples>(stacked(all));
+    const auto out = std::make_shared<Eigen::MatrixXd>();
+    const auto measure = [&](const std::string& what, const std::function<void()>& function) {
+        benchmark::RegisterBenchmark((robot + "/" + what + "/batch").c_str(),
+                                     [function](benchmark::State& state) {
+                                         for (auto _ : state) {
+                                             function();
+                                             benchmark::ClobberMemory();
+                                         }
+                                     })
+            ->Repetitions(5)
+            ->MinTime(0.05);
+    };
+    measure("1 inverse dynamics", [=] { e->inverse_dynamics(*samples, *out); });
+    measure("2 regressor", [=] { e->regressor(*samples, *out); });
+}
+
 int run() {
     std::vector<std::shared_ptr<engine>> keep;
     std::vector<std::string> names;
@@ -121,6 +186,7 @@ int run() {
         for (const auto make : {generated_engine, kdl_engine, mujoco_engine, eigen_engine}) {
             const std::shared_ptr<engine> e = make(robot);
             check(*e, *kdl_engine(robot), *all);
+            check_batch(*e, *all);
             keep.push_back(e);
             names.push_back(e->name());
             row_major none;
@@ -142,10 +208,12 @@ int run() {
                     ->MinTime(0.05);
             }
         }
+        register_batch(name, keep[keep.size() - names.size()], *all);
     }
     collector results;
     benchmark::RunSpecifiedBenchmarks(&results);
     print(robots, names, results.nanoseconds);
+    print_batch(robots, names.front(), results.nanoseconds);
     return 0;
 }
 
