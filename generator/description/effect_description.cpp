@@ -181,7 +181,7 @@ std::string law_of(const effect_description& effect) {
 effect_description read_effect(const std::string& file) {
     const yaml_fields fields(read_yaml(file),
                              {"effect", "per", "acts_on", "kind", "torque", "torque_without_temperature", "per_log",
-                              "state", "linear", "shape", "about"});
+                              "state", "linear", "shape", "about", "proposed"});
     effect_description effect;
     effect.file = file;
     const yaml_value name = fields.require("effect", "the name of the effect");
@@ -202,6 +202,9 @@ effect_description read_effect(const std::string& file) {
     effect.shape = read_shape(fields, effect.linear);
     if (effect.linear.empty() && effect.shape.empty()) {
         throw input_error({file, fields.where().line, "linear"}, "missing, expected at least one coefficient");
+    }
+    if (const auto proposed = fields.find("proposed")) {
+        read_yes(*proposed);  // for those who read the file: no published effect
     }
     if (const auto about = fields.find("about")) {
         effect.about = about->paragraph("a sentence");

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -8,6 +10,7 @@
 #include "idim/input_error.hpp"
 #include "idim/log_parameters.hpp"
 #include "idim/unified_diff.hpp"
+#include "proposed_effects.hpp"
 #include "refine_report.hpp"
 #include "refined_description.hpp"
 #include "trace_json.hpp"
@@ -54,6 +57,10 @@ identified_robot identify_traced(const traced_robot& traced, const std::string& 
     return {std::move(found), std::move(all)};
 }
 
+void say(const std::string& line) {
+    fmt::print(stderr, "  {}\n", line);
+}
+
 json result_json(const identified_robot& identified, const traced_robot& traced, const std::string& method) {
     json content = to_json(identified.found, method);
     content["validation"] = to_json(identified.errors.validation, traced.robot);
@@ -95,6 +102,10 @@ struct rebuilt_robot {
     identified_robot identified;
 };
 
+std::string description_in(const refine_options& options) {
+    return (fs::path(options.folder) / "robot.yaml").string();
+}
+
 std::unique_ptr<const rebuilt_robot> rebuild(const refine_options& options, const traced_robot& before,
                                              const std::vector<trace_step>& steps) {
     const std::string file = write_refined_description(options.robot, before, steps, options.folder);
@@ -104,6 +115,44 @@ std::unique_ptr<const rebuilt_robot> rebuild(const refine_options& options, cons
 bool worse(const error_summary& after, const error_summary& before) {
     constexpr double margin = 2e-3;  // other joints' parameters move within their deviations
     return after.relative_error > before.relative_error * (1.0 + margin);
+}
+
+/// Takes steps back from the end while the data held back is worse off with them.
+std::unique_ptr<const rebuilt_robot> rebuild_what_helps(const refine_options& options, const traced_robot& before,
+                                                        const error_summary& errors_before,
+                                                        std::vector<trace_step>& steps) {
+    std::unique_ptr<const rebuilt_robot> last = rebuild(options, before, steps);
+    while (!steps.empty() && worse(last->identified.errors.validation, errors_before)) {
+        steps.pop_back();
+        last = rebuild(options, before, steps);
+    }
+    return last;
+}
+
+/// Tries what idim itself proposes for structure that no known effect fits, on the same terms as all else.
+void add_proposals(const traced_robot& found, const std::vector<proposed_effect>& proposals, effect_trace& trace) {
+    trace_input input = found.input();
+    input.progress = say;
+    for (const proposed_effect& proposal : proposals) {
+        input.only.push_back(proposal.place);
+    }
+    for (trace_step& step : trace_effects(input).steps) {
+        trace.steps.push_back(std::move(step));
+    }
+}
+
+/// Says which structure has its effect now; files of proposals that are not in the model are removed.
+void settle_proposals(const std::vector<proposed_effect>& proposals, effect_trace& trace) {
+    for (const proposed_effect& proposal : proposals) {
+        const auto step = std::find_if(trace.steps.begin(), trace.steps.end(),
+                                       [&](const trace_step& s) { return s.place == proposal.place; });
+        if (step == trace.steps.end()) {
+            fs::remove(proposal.file);
+        } else {
+            step->torque = proposal.torque;
+            trace.unexplained[proposal.structure].proposed = proposal.place.effect;
+        }
+    }
 }
 
 json refine_json(const refine_outcome& outcome, const refine_options& options) {
@@ -121,6 +170,9 @@ void print_outcome(const refine_outcome& outcome, const refine_options& options)
     for (const trace_step& step : outcome.trace.steps) {
         fmt::print("  {}: p {:.2g}, explains {:.0f} %\n", describe(step.place, outcome.before.robot), step.p_value,
                    100.0 * step.explained_fraction);
+        if (!step.torque.empty()) {
+            fmt::print("    torque {}\n", step.torque);
+        }
         for (const effect_parameter& parameter : step.parameters) {
             fmt::print("    {:<6} {:>12.5g} std {:.2g} {}\n", parameter.name, parameter.value, parameter.std,
                        parameter.unit);
@@ -128,6 +180,11 @@ void print_outcome(const refine_outcome& outcome, const refine_options& options)
         for (const effect_place& other : step.confusable_with) {
             fmt::print("    this data cannot tell it from {}\n", describe(other, outcome.before.robot));
         }
+    }
+    for (const unexplained_structure& structure : outcome.trace.unexplained) {
+        fmt::print("  no known effect fits: {} depends on {}, {:.0f} % of its residual variance\n",
+                   joint_name(outcome.before.robot, structure.joint), fmt::join(structure.signals, " and "),
+                   100.0 * structure.explained_fraction);
     }
     fmt::print("fitted, before and after:\n");
     print(outcome.errors_before.identification, outcome.before.robot);
@@ -144,13 +201,16 @@ int run(const refine_options& options) {
     const identified_robot first = identify_traced(before, options.method);
     trace_input input = before.input();
     input.most_effects = options.most_effects;
-    input.progress = [](const std::string& line) { fmt::print(stderr, "  {}\n", line); };
+    input.progress = say;
     effect_trace trace = trace_effects(input);
     fs::create_directories(options.folder);
-    std::unique_ptr<const rebuilt_robot> last = rebuild(options, before, trace.steps);
-    while (!trace.steps.empty() && worse(last->identified.errors.validation, first.errors.validation)) {
-        trace.steps.pop_back();
-        last = rebuild(options, before, trace.steps);
+    std::unique_ptr<const rebuilt_robot> last =
+        rebuild_what_helps(options, before, first.errors.validation, trace.steps);
+    const std::vector<proposed_effect> proposals = write_proposed_effects(trace, before.robot, options.folder);
+    if (!proposals.empty()) {
+        add_proposals(with_description(before, description_in(options)), proposals, trace);
+        last = rebuild_what_helps(options, before, last->identified.errors.validation, trace.steps);
+        settle_proposals(proposals, trace);
     }
     const refine_outcome outcome{before, last->traced, first.errors, last->identified.errors, std::move(trace)};
     const fs::path folder = options.folder;

@@ -32,6 +32,7 @@ std::string step_text(const trace_step& step, const loaded_robot& robot) {
         "data held back; error there {:.2f} % -> {:.2f} %\n",
         describe(step.place, robot), step.p_value, 100.0 * step.explained_fraction, 100.0 * step.before.relative_error,
         100.0 * step.after.relative_error);
+    text += step.torque.empty() ? "" : fmt::format("  - torque {}\n", step.torque);
     for (const effect_parameter& parameter : step.parameters) {
         text += fmt::format("  - {} = {:.5g} (std {:.2g}) {}\n", parameter.name, parameter.value, parameter.std,
                             parameter.unit);

@@ -39,6 +39,9 @@ json step_json(const trace_step& step, const loaded_robot& robot) {
             {"value", finite(parameter.value)}, {"std", finite(parameter.std)}, {"unit", parameter.unit}};
     }
     content["parameters"] = parameters;
+    if (!step.torque.empty()) {
+        content["torque"] = step.torque;
+    }
     content["p_value"] = step.p_value;
     content["explained_fraction"] = step.explained_fraction;
     content["confusable_with"] = places_json(step.confusable_with, robot);
@@ -70,7 +73,7 @@ json unexplained_json(const effect_trace& trace, const loaded_robot& robot) {
         list.push_back({{"joint", joint_name(robot, structure.joint)},
                         {"signals", structure.signals},
                         {"explained_fraction", structure.explained_fraction},
-                        {"proposed", nullptr}});
+                        {"proposed", structure.proposed.empty() ? json(nullptr) : json(structure.proposed)}});
     }
     return list;
 }

@@ -48,3 +48,19 @@ measured() { # ROBOT METHOD IDENTIFICATION_LOG [VALIDATION_LOG]
 measured emps ols "$data/emps/ident.csv.gz"
 measured tx40 wls "$data/tx40/ident.csv.gz"
 measured panda wls "$data/panda/ident.csv.gz" "$data/panda/valid.csv.gz"
+
+# The loop closed: a twin of the SCARA whose second joint pulls at a spring that the description does not have.
+say "A twin with a spring at joint 2 that its description lacks, simulated"
+cp "$source/robots/scara/direct_drive_rotor.yaml" "$work"
+sed 's/^effects:/effects:\n  - {effect: spring, joints: [j2]}/' "$robot" >"$work/twin.yaml"
+{ cat "$truth"; echo "Ks2: 0.15"; echo "Os2: 0.02"; } >"$work/twin_truth.yaml"
+for run in 1 2; do
+    "$idim" simulate "$work/twin.yaml" --parameters "$work/twin_truth.yaml" --reference "$work/reference_$run.csv" -o "$work/twin_$run.csv" \
+        --position-noise 1e-4 --torque-noise 0.4 0.08 --seed $run
+done
+
+say "What the description lacks is found, added, and everything identified again"
+"$idim" refine "$robot" "$work/twin_1.csv" --validation "$work/twin_2.csv" -o "$work/refined"
+
+say "The diff of the generated model"
+cat "$work/refined/model.diff"

@@ -49,6 +49,7 @@ struct trace_step {
     std::vector<effect_place> confusable_with;
     error_summary before;  ///< on the data held back
     error_summary after;
+    std::string torque = {};  ///< expression of an effect that was proposed for it
 };
 
 /// A candidate that was tried at the end, most likely first.
@@ -68,7 +69,13 @@ struct trace_candidate {
 struct unexplained_structure {
     int joint = 0;
     std::vector<std::string> signals;  ///< "q2", "qd1", "t" ...
-    double explained_fraction = 0.0;
+    double explained_fraction = 0.0;   ///< of the residual variance away from reversals, on data held back
+    /// A torque that may be its form: a sum of these terms, each with a linear coefficient, in the words of an effect
+    /// file; empty where none is stable.
+    std::vector<std::string> terms;
+    std::vector<std::string> units;  ///< of the terms' coefficients
+    std::optional<int> from;         ///< joint of the signals ..._from
+    std::string proposed;            ///< name of the effect that was added for it
 };
 
 /// Deviation of the noise of each joint's rows, and where it was taken from; empty where it cannot be known.
@@ -97,6 +104,7 @@ struct trace_input {
     filter_choice filter;
     const idim_effect_table* catalogue = nullptr;
     std::vector<effect_place> declared;                ///< effects the description has already
+    std::vector<effect_place> only;                    ///< tried, and nothing else; empty: everything
     int most_effects = 12;                             ///< 0: only look
     std::function<void(const std::string&)> progress;  ///< one line for the user; may be empty
 };

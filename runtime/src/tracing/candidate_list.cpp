@@ -91,6 +91,9 @@ std::vector<candidate_pointer> list_candidates(const trace_input& input, const s
     }
     const auto taken = [&](const candidate_pointer& candidate) {
         const effect_place place{candidate->effect, candidate->joints, candidate->from};
+        if (!input.only.empty() && std::find(input.only.begin(), input.only.end(), place) == input.only.end()) {
+            return true;
+        }
         return std::find(input.declared.begin(), input.declared.end(), place) != input.declared.end() ||
                std::any_of(terms.begin(), terms.end(), [&](const effect_term& term) {
                    return place == effect_place{term.candidate->effect, term.candidate->joints, term.candidate->from};

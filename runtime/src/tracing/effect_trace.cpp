@@ -13,6 +13,7 @@
 #include "idim/input_error.hpp"
 #include "model_candidates.hpp"
 #include "noise_floor.hpp"
+#include "structure_proposal.hpp"
 #include "term_deviations.hpp"
 
 namespace idim {
@@ -122,6 +123,7 @@ class tracer {
         if (input_.most_effects == 0) {
             look(fit);
         }
+        find_structure(fit);
         result_.after = {errors_of(fit, false), errors_of(fit, true)};
         fill_parameters(fit);
         return std::move(result_);
@@ -269,6 +271,32 @@ class tracer {
             fit = settled(fit_with_own_noise(logs_, terms, &fit.noise()));
         }
         return fit;
+    }
+
+    /// What is left once no known effect passes.
+    void find_structure(const trace_fit& fit) {
+        const auto passes = [](const trace_candidate& candidate) { return candidate.objection.empty(); };
+        if (!input_.only.empty() ||
+            (input_.most_effects == 0 && std::any_of(result_.candidates.begin(), result_.candidates.end(), passes))) {
+            return;
+        }
+        for (const signal_dependence& dependence : find_dependences(fit)) {
+            unexplained_structure structure;
+            structure.joint = dependence.joint;
+            structure.explained_fraction = dependence.explained_fraction;
+            for (const signal_source& source : dependence.signals) {
+                structure.signals.push_back(source.name());
+            }
+            if (const std::optional<proposed_torque> proposal = propose(fit, dependence)) {
+                structure.terms = proposal->terms;
+                structure.units = proposal->units;
+                structure.from = proposal->from;
+            }
+            say(fmt::format("the residual of joint {} depends on {}: {:.0f} % of it on data held back",
+                            dependence.joint + 1, fmt::join(structure.signals, ", "),
+                            100.0 * dependence.explained_fraction));
+            result_.unexplained.push_back(std::move(structure));
+        }
     }
 
     void record(const trace_fit& before, const trace_fit& after, const effect_survey& all, std::size_t chosen) {

@@ -67,6 +67,8 @@ class trace_fit {
     /// Coefficients of all columns whose prediction is the combination k of the orthonormal basis.
     Eigen::VectorXd basis_times(const Eigen::VectorXd& k) const { return basis_scale_ * k; }
 
+    /// Combinations of all columns, p x k, whose weighted rows are orthonormal: what the fit can tell apart.
+    const Eigen::MatrixXd& combinations() const { return basis_scale_; }
     /// All columns [W X] of one joint in one log.
     const Eigen::MatrixXd& columns(std::size_t log, int joint) const {
         return columns_[log][static_cast<std::size_t>(joint)];
