@@ -41,8 +41,9 @@ std::string file_text(const unexplained_structure& structure, const std::string&
 
 }  // namespace
 
-std::vector<proposed_effect> write_proposed_effects(const effect_trace& trace, const loaded_robot& robot,
-                                                    const std::string& folder) {
+std::vector<proposed_effect> write_proposed_effects(const effect_trace& trace, const traced_robot& traced,
+                                                    const std::string& robot_file, const std::string& folder) {
+    const fs::path beside = fs::path(robot_file).parent_path();
     std::vector<proposed_effect> written;
     int number = 0;
     for (std::size_t s = 0; s < trace.unexplained.size(); ++s) {
@@ -50,20 +51,17 @@ std::vector<proposed_effect> write_proposed_effects(const effect_trace& trace, c
         if (structure.terms.empty()) {
             continue;
         }
-        fs::path path;
-        do {
-            path = fs::path(folder) / fmt::format("proposed_{}.yaml", ++number);
-        } while (fs::exists(path));
+        while (fs::exists(beside / fmt::format("proposed_{}.yaml", ++number))) {
+        }
+        const std::string name = fmt::format("proposed_{}", number);
+        const fs::path path = fs::path(folder) / (name + ".yaml");
         std::ofstream file(path, std::ios::binary);
-        file << file_text(structure, joint_name(robot, structure.joint), number);
+        file << file_text(structure, joint_name(traced.robot, structure.joint), number);
         file.close();
         if (!file) {
             throw input_error({path.string(), 0, ""}, "cannot be written");
         }
-        written.push_back({s,
-                           {fmt::format("proposed_{}", number), {structure.joint}, structure.from},
-                           path.string(),
-                           torque_of(structure, number)});
+        written.push_back({s, {name, {structure.joint}, structure.from}, path.string(), torque_of(structure, number)});
     }
     return written;
 }

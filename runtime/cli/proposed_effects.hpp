@@ -15,9 +15,9 @@ struct proposed_effect {
     std::string torque;  ///< expression
 };
 
-/// Writes `folder`/proposed_1.yaml .. for the structures that have terms; names that a file there has are passed over.
-/// Throws input_error where one cannot be written.
-std::vector<proposed_effect> write_proposed_effects(const effect_trace& trace, const loaded_robot& robot,
-                                                    const std::string& folder);
+/// Writes `folder`/proposed_1.yaml .. for the structures that have terms; names of files beside the description are
+/// passed over. Throws input_error where one cannot be written.
+std::vector<proposed_effect> write_proposed_effects(const effect_trace& trace, const traced_robot& traced,
+                                                    const std::string& robot_file, const std::string& folder);
 
 }  // namespace idim::cli

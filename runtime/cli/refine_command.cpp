@@ -206,7 +206,7 @@ int run(const refine_options& options) {
     fs::create_directories(options.folder);
     std::unique_ptr<const rebuilt_robot> last =
         rebuild_what_helps(options, before, first.errors.validation, trace.steps);
-    const std::vector<proposed_effect> proposals = write_proposed_effects(trace, before.robot, options.folder);
+    const std::vector<proposed_effect> proposals = write_proposed_effects(trace, before, options.robot, options.folder);
     if (!proposals.empty()) {
         add_proposals(with_description(before, description_in(options)), proposals, trace);
         last = rebuild_what_helps(options, before, last->identified.errors.validation, trace.steps);

@@ -53,7 +53,7 @@ measured panda wls "$data/panda/ident.csv.gz" "$data/panda/valid.csv.gz"
 say "A twin with a spring at joint 2 that its description lacks, simulated"
 cp "$source/robots/scara/direct_drive_rotor.yaml" "$work"
 sed 's/^effects:/effects:\n  - {effect: spring, joints: [j2]}/' "$robot" >"$work/twin.yaml"
-{ cat "$truth"; echo "Ks2: 0.15"; echo "Os2: 0.02"; } >"$work/twin_truth.yaml"
+{ cat "$truth"; echo "K2: 0.5"; echo "K02: 0"; } >"$work/twin_truth.yaml"
 for run in 1 2; do
     "$idim" simulate "$work/twin.yaml" --parameters "$work/twin_truth.yaml" --reference "$work/reference_$run.csv" -o "$work/twin_$run.csv" \
         --position-noise 1e-4 --torque-noise 0.4 0.08 --seed $run
