@@ -136,9 +136,16 @@ void add_proposals(const traced_robot& found, const std::vector<proposed_effect>
     for (const proposed_effect& proposal : proposals) {
         input.only.push_back(proposal.place);
     }
-    for (trace_step& step : trace_effects(input).steps) {
-        trace.steps.push_back(std::move(step));
+    effect_trace more = trace_effects(input);
+    for (const proposed_effect& proposal : proposals) {
+        say(fmt::format("proposed at joint {}: {}", proposal.place.joints.front() + 1, proposal.torque));
+        for (const trace_candidate& candidate : more.candidates) {
+            if (candidate.place == proposal.place && !candidate.objection.empty()) {
+                say("  not accepted: " + candidate.objection);
+            }
+        }
     }
+    trace.steps.insert(trace.steps.end(), more.steps.begin(), more.steps.end());
 }
 
 /// Says which structure has its effect now; files of proposals that are not in the model are removed.

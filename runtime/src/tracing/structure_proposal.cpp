@@ -2,26 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <random>
-
-#include "effect_evidence.hpp"
 
 namespace idim {
 
 namespace {
 
-constexpr int most_terms = 3;
-constexpr double least_share = 0.1;      ///< of the first term's gain: a smaller term is left out
-constexpr double nearly_the_same = 0.9;  ///< correlation outside the model of terms that stand for each other
-constexpr int halves = 50;
-constexpr double stable_share = 0.6;  ///< of the halves in which a term is chosen
-constexpr int blocks = 20;
-constexpr double collinear = 1e-3;  ///< part of a term's norm that is left outside the model and the terms before it
-constexpr std::uint64_t seed = 2;
+constexpr int blocks = 10;        ///< of cross-validation, each a stretch of time
+constexpr double as_good = 0.02;  ///< of the residual: of forms that explain as much but for this the simplest is taken
+constexpr double least_explained = 0.05;  ///< of the residual, in the blocks left out
+constexpr double collinear = 1e-3;        ///< part of a term's norm that is left outside the model
 
 /// A function of a signal, as it is written and as it is evaluated; {} stands for the signal.
 struct signal_function {
@@ -34,30 +28,35 @@ double sign(double x) {
     return static_cast<double>(x > 0.0) - static_cast<double>(x < 0.0);
 }
 
-const std::vector<signal_function>& functions_of(signal_source::kind what) {
-    static const std::vector<signal_function> positions = {
-        {"{}", [](double x) { return x; }, 1},
-        {"{}^2", [](double x) { return x * x; }, 2},
-        {"{}^3", [](double x) { return x * x * x; }, 3},
-        {"cos({})", [](double x) { return std::cos(x); }, 0},
-        {"sin({})", [](double x) { return std::sin(x); }, 0},
-        {"cos(2*{})", [](double x) { return std::cos(2.0 * x); }, 0},
-        {"sin(2*{})", [](double x) { return std::sin(2.0 * x); }, 0},
-        {"cos(3*{})", [](double x) { return std::cos(3.0 * x); }, 0},
-        {"sin(3*{})", [](double x) { return std::sin(3.0 * x); }, 0},
+/// Functions that make a form together: a wave has its phase.
+using function_family = std::vector<signal_function>;
+
+/// From the simplest on.
+const std::vector<function_family>& families_of(signal_source::kind what) {
+    static const signal_function linear = {"{}", [](double x) { return x; }, 1};
+    static const signal_function square = {"{}^2", [](double x) { return x * x; }, 2};
+    static const std::vector<function_family> positions = {
+        {linear},
+        {{"cos({})", [](double x) { return std::cos(x); }, 0}, {"sin({})", [](double x) { return std::sin(x); }, 0}},
+        {linear, square},
+        {{"cos(2*{})", [](double x) { return std::cos(2.0 * x); }, 0},
+         {"sin(2*{})", [](double x) { return std::sin(2.0 * x); }, 0}},
+        {{"cos(3*{})", [](double x) { return std::cos(3.0 * x); }, 0},
+         {"sin(3*{})", [](double x) { return std::sin(3.0 * x); }, 0}},
     };
-    static const std::vector<signal_function> others = {
-        {"{}", [](double x) { return x; }, 1},
-        {"abs({})", [](double x) { return std::abs(x); }, 1},
-        {"sign({})", sign, 0},
-        {"{}^2", [](double x) { return x * x; }, 2},
-        {"{}*abs({})", [](double x) { return x * std::abs(x); }, 2},
-        {"{}^3", [](double x) { return x * x * x; }, 3},
+    static const std::vector<function_family> others = {
+        {linear},
+        {{"abs({})", [](double x) { return std::abs(x); }, 1}},
+        {{"sign({})", sign, 0}},
+        {square},
+        {{"{}*abs({})", [](double x) { return x * std::abs(x); }, 2}},
+        {{"{}^3", [](double x) { return x * x * x; }, 3}},
+        {linear, square},
     };
     return what == signal_source::kind::q ? positions : others;
 }
 
-/// A term of the grammar along the fitted rows.
+/// A term along the fitted rows.
 struct grammar_term {
     std::string text;
     std::string unit;
@@ -102,40 +101,51 @@ std::string with_word(const char* text, const std::string& word) {
     return result;
 }
 
-std::vector<grammar_term> terms_of(const joint_residual& rows, const signal_dependence& dependence) {
-    const auto term = [&](const std::vector<const signal_function*>& factors) {
-        grammar_term made{"", "", rows.weight};
-        unit_powers powers;
-        for (std::size_t s = 0; s < factors.size(); ++s) {
-            if (factors[s] != nullptr) {
-                const signal_source& source = dependence.signals[s];
-                made.text +=
-                    (made.text.empty() ? "" : "*") + with_word(factors[s]->text, word_of(source, dependence.joint));
-                made.values.array() *=
-                    rows.signals.col(static_cast<Eigen::Index>(s)).unaryExpr(factors[s]->value).array();
-                powers.add(source.what, factors[s]->power);
+/// The product of one function of each signal; null: none of that signal.
+grammar_term product(const joint_residual& rows, const signal_dependence& dependence,
+                     const std::vector<const signal_function*>& factors) {
+    grammar_term made{"", "", rows.weight};
+    unit_powers powers;
+    for (std::size_t s = 0; s < factors.size(); ++s) {
+        if (factors[s] != nullptr) {
+            const signal_source& source = dependence.signals[s];
+            made.text +=
+                (made.text.empty() ? "" : "*") + with_word(factors[s]->text, word_of(source, dependence.joint));
+            made.values.array() *= rows.signals.col(static_cast<Eigen::Index>(s)).unaryExpr(factors[s]->value).array();
+            powers.add(source.what, factors[s]->power);
+        }
+    }
+    made.unit = powers.text();
+    return made;
+}
+
+using grammar_form = std::vector<grammar_term>;
+
+/// Every form of the signals: a family of one, or all products of two families with each other and with 1.
+std::vector<grammar_form> forms_of(const joint_residual& rows, const signal_dependence& dependence) {
+    std::vector<grammar_form> forms;
+    for (const function_family& first : families_of(dependence.signals[0].what)) {
+        if (dependence.signals.size() == 1) {
+            forms.emplace_back();
+            for (const signal_function& f : first) {
+                forms.back().push_back(product(rows, dependence, {&f}));
+            }
+            continue;
+        }
+        for (const function_family& second : families_of(dependence.signals[1].what)) {
+            forms.emplace_back();
+            for (const signal_function& f : first) {
+                forms.back().push_back(product(rows, dependence, {&f, nullptr}));
+            }
+            for (const signal_function& g : second) {
+                forms.back().push_back(product(rows, dependence, {nullptr, &g}));
+                for (const signal_function& f : first) {
+                    forms.back().push_back(product(rows, dependence, {&f, &g}));
+                }
             }
         }
-        made.unit = powers.text();
-        return made;
-    };
-    std::vector<grammar_term> all;
-    if (dependence.signals.size() == 1) {
-        for (const signal_function& f : functions_of(dependence.signals[0].what)) {
-            all.push_back(term({&f}));
-        }
-        return all;
     }
-    for (const signal_function& f : functions_of(dependence.signals[0].what)) {
-        all.push_back(term({&f, nullptr}));
-    }
-    for (const signal_function& g : functions_of(dependence.signals[1].what)) {
-        all.push_back(term({nullptr, &g}));
-        for (const signal_function& f : functions_of(dependence.signals[0].what)) {
-            all.push_back(term({&f, &g}));
-        }
-    }
-    return all;
+    return forms;
 }
 
 Eigen::MatrixXd outside(const Eigen::MatrixXd& model, const Eigen::MatrixXd& A) {
@@ -145,73 +155,81 @@ Eigen::MatrixXd outside(const Eigen::MatrixXd& model, const Eigen::MatrixXd& A) 
     return A - model * solver.solve(A);
 }
 
-/// Columns (of norm 1 before the model was taken off) chosen one after the other, each taken off the rest.
-std::vector<Eigen::Index> forward_regression(Eigen::MatrixXd columns, Eigen::VectorXd left) {
-    std::vector<Eigen::Index> chosen;
-    double first_gain = 0.0;
-    while (chosen.size() < most_terms) {
-        Eigen::Index best = -1;
-        double gain = 0.0;
-        for (Eigen::Index k = 0; k < columns.cols(); ++k) {
-            const double there = columns.col(k).norm();
-            if (there > collinear) {
-                const double part = columns.col(k).dot(left) / there;
-                best = part * part > gain ? k : best;
-                gain = std::max(gain, part * part);
-            }
-        }
-        if (best < 0 || gain < least_share * first_gain) {
-            break;
-        }
-        first_gain = chosen.empty() ? gain : first_gain;
-        chosen.push_back(best);
-        const Eigen::VectorXd direction = columns.col(best).normalized();
-        left -= direction * direction.dot(left);
-        columns -= direction * (direction.transpose() * columns);
-    }
-    return chosen;
-}
+/// Terms of a form that show outside the model, and how much of the residual they explain.
+struct fitted_form {
+    grammar_form terms;
+    double explained = 0.0;  ///< in stretches of time that were left out, each fitted on the others
+};
 
-/// Rows of a random half of the blocks.
-std::vector<Eigen::Index> half_of(Eigen::Index rows, std::mt19937_64& random) {
-    std::vector<Eigen::Index> order(blocks);
+/// Share of y that columns C explain in each block, fitted on the others.
+double cross_validated(const Eigen::MatrixXd& C, const Eigen::VectorXd& y) {
+    const Eigen::Index n = C.rows();
+    const Eigen::MatrixXd all = C.transpose() * C;
+    const Eigen::VectorXd with_y = C.transpose() * y;
+    double left = 0.0;
     for (Eigen::Index b = 0; b < blocks; ++b) {
-        order[static_cast<std::size_t>(b)] = b;
+        const Eigen::Index first = n * b / blocks;
+        const Eigen::Index count = n * (b + 1) / blocks - first;
+        const auto part = C.middleRows(first, count);
+        const auto y_part = y.segment(first, count);
+        const Eigen::VectorXd coefficient =
+            (all - part.transpose() * part).ldlt().solve(with_y - part.transpose() * y_part);
+        left += (y_part - part * coefficient).squaredNorm();
     }
-    for (std::size_t b = order.size() - 1; b > 0; --b) {
-        std::swap(order[b], order[random() % (b + 1)]);
-    }
-    std::vector<Eigen::Index> kept;
-    for (std::size_t b = 0; b < order.size() / 2; ++b) {
-        for (Eigen::Index k = rows * order[b] / blocks; k < rows * (order[b] + 1) / blocks; ++k) {
-            kept.push_back(k);
-        }
-    }
-    return kept;
+    return 1.0 - left / y.squaredNorm();
 }
 
-/// Which of `chosen` are chosen, they or one nearly the same, in most halves of the rows.
-std::vector<Eigen::Index> stable_terms(const Eigen::MatrixXd& columns, const Eigen::VectorXd& left,
-                                       const std::vector<Eigen::Index>& chosen) {
-    const Eigen::MatrixXd unit = columns.colwise().normalized();
-    std::vector<int> count(chosen.size(), 0);
-    std::mt19937_64 random(seed);
-    for (int half = 0; half < halves; ++half) {
-        const std::vector<Eigen::Index> rows = half_of(columns.rows(), random);
-        const std::vector<Eigen::Index> again = forward_regression(columns(rows, Eigen::all), left(rows));
-        for (std::size_t i = 0; i < chosen.size(); ++i) {
-            count[i] += std::any_of(again.begin(), again.end(), [&](Eigen::Index k) {
-                return std::abs(unit.col(k).dot(unit.col(chosen[i]))) > nearly_the_same;
-            });
+fitted_form fit_form(const joint_residual& rows, const grammar_form& form) {
+    Eigen::MatrixXd all(rows.left.size(), static_cast<Eigen::Index>(form.size()) + 1);
+    for (std::size_t k = 0; k < form.size(); ++k) {
+        all.col(static_cast<Eigen::Index>(k)) = form[k].values.normalized();
+    }
+    all.rightCols(1) = rows.left;
+    all = outside(rows.model, all);
+    fitted_form fitted;
+    std::vector<Eigen::Index> shown;
+    for (std::size_t k = 0; k < form.size(); ++k) {
+        if (all.col(static_cast<Eigen::Index>(k)).norm() > collinear) {
+            shown.push_back(static_cast<Eigen::Index>(k));
+            fitted.terms.push_back(form[k]);
         }
     }
-    std::vector<Eigen::Index> stable;
-    for (std::size_t i = 0; i < chosen.size(); ++i) {
-        if (count[i] >= stable_share * halves) {
-            stable.push_back(chosen[i]);
+    if (!shown.empty()) {
+        fitted.explained = cross_validated(all(Eigen::all, shown).colwise().normalized(), all.rightCols(1));
+    }
+    return fitted;
+}
+
+/// The form that explains most where it was not fitted, or a simpler one that does nearly as well, without the terms
+/// that it does as well without.
+fitted_form best_form(const joint_residual& rows, const signal_dependence& dependence) {
+    std::vector<fitted_form> fitted;
+    for (const grammar_form& form : forms_of(rows, dependence)) {
+        fitted.push_back(fit_form(rows, form));
+    }
+    double most = 0.0;
+    for (const fitted_form& form : fitted) {
+        most = std::max(most, form.explained);
+    }
+    fitted_form best;
+    for (const fitted_form& form : fitted) {
+        const bool simpler = best.terms.empty() || form.terms.size() < best.terms.size() ||
+                             (form.terms.size() == best.terms.size() && form.explained > best.explained);
+        if (!form.terms.empty() && form.explained >= most - as_good && simpler) {
+            best = form;
         }
     }
-    return stable;
+    for (std::size_t k = 0; k < best.terms.size() && best.terms.size() > 1;) {
+        grammar_form fewer = best.terms;
+        fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));
+        const fitted_form without = fit_form(rows, fewer);
+        if (without.explained >= best.explained - 0.5 * as_good) {
+            best = without;
+        } else {
+            ++k;
+        }
+    }
+    return best;
 }
 
 /// The one joint beside `joint` whose signals are used; -1 for none, nothing where an effect file cannot say it.
@@ -240,22 +258,14 @@ std::optional<proposed_torque> propose(const trace_fit& fit, const signal_depend
         return std::nullopt;
     }
     const joint_residual rows = residual_of(fit, dependence.joint, dependence.signals, false);
-    const std::vector<grammar_term> grammar = terms_of(rows, dependence);
-    Eigen::MatrixXd all(rows.left.size(), static_cast<Eigen::Index>(grammar.size()) + 1);
-    for (std::size_t k = 0; k < grammar.size(); ++k) {
-        all.col(static_cast<Eigen::Index>(k)) = grammar[k].values.normalized();
-    }
-    all.rightCols(1) = rows.left;
-    all = outside(rows.model, all);
-    const Eigen::MatrixXd columns = all.leftCols(all.cols() - 1);
-    const Eigen::VectorXd left = all.rightCols(1);
-    proposed_torque proposal;
-    for (const Eigen::Index k : stable_terms(columns, left, forward_regression(columns, left))) {
-        proposal.terms.push_back(grammar[static_cast<std::size_t>(k)].text);
-        proposal.units.push_back(grammar[static_cast<std::size_t>(k)].unit);
-    }
-    if (proposal.terms.empty()) {
+    const fitted_form best = best_form(rows, dependence);
+    if (best.explained < least_explained) {
         return std::nullopt;
+    }
+    proposed_torque proposal;
+    for (const grammar_term& term : best.terms) {
+        proposal.terms.push_back(term.text);
+        proposal.units.push_back(term.unit);
     }
     if (*other >= 0) {
         proposal.from = other;

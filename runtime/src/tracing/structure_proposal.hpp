@@ -16,10 +16,9 @@ struct proposed_torque {
     std::optional<int> from;         ///< the other joint
 };
 
-/// Orthogonal forward regression [Chen, Billings and Luo 1989] over functions of each signal and their products,
-/// beside the model; kept are the terms that are chosen again, or a term nearly the same, in most halves of the data
-/// [Meinshausen and Buehlmann 2010]. None where no term is, or an effect of one joint and one other cannot hold the
-/// signals.
+/// From a grammar of functions of each signal and their products: the form that explains most of stretches of time it
+/// was not fitted to, beside the model, or the simplest of those that do nearly as well. None where that is next to
+/// nothing, or an effect of one joint and one other cannot hold the signals.
 std::optional<proposed_torque> propose(const trace_fit& fit, const signal_dependence& dependence);
 
 }  // namespace idim
