@@ -92,16 +92,20 @@ json loop_json(const method_result& result) {
             {"assumption", result.assumption.empty() ? json(nullptr) : json(result.assumption)}};
 }
 
+json optional_json(const std::optional<double>& value) {
+    return value ? finite(*value) : json(nullptr);
+}
+
 json tests_json(const method_result& result, const loaded_robot& robot) {
     json residual = json::array();
     for (std::size_t j = 0; j < result.residual.size(); ++j) {
         const residual_test& test = result.residual[j];
         residual.push_back({{"joint", robot.generated.joints[j].name},
                             {"lag_one_correlation", finite(test.lag_one)},
-                            {"whiteness_p", finite(test.whiteness_p)},
+                            {"whiteness_p", optional_json(test.whiteness_p)},
                             {"skewness", finite(test.skewness)},
                             {"excess_kurtosis", finite(test.excess_kurtosis)},
-                            {"normality_p", finite(test.normality_p)},
+                            {"normality_p", optional_json(test.normality_p)},
                             {"thinned_rows", test.thinned_rows}});
     }
     json instruments = nullptr;
@@ -140,13 +144,26 @@ void print_iterations(const method_result& result, const loaded_robot& robot) {
     fmt::print("  {}\n", result.fit.message);
 }
 
+std::string whiteness_of(const residual_test& test) {
+    return test.whiteness_p
+               ? fmt::format("{} (lag 1 {:.2f}, p {:.2g})", *test.whiteness_p < 0.05 ? "not white" : "white",
+                             test.lag_one, *test.whiteness_p)
+               : "too few rows to tell whether it is white";
+}
+
+std::string normality_of(const residual_test& test) {
+    return test.normality_p
+               ? fmt::format("{} (skewness {:.2f}, kurtosis {:+.2f}, p {:.2g})",
+                             *test.normality_p < 0.05 ? "not normal" : "normal", test.skewness, test.excess_kurtosis,
+                             *test.normality_p)
+               : fmt::format("too few independent rows ({}) to tell whether it is normal", test.thinned_rows);
+}
+
 void print_tests(const method_result& result, const loaded_robot& robot) {
     for (std::size_t j = 0; j < result.residual.size(); ++j) {
         const residual_test& test = result.residual[j];
-        fmt::print("  residual of {}: {} (lag 1 {:.2f}, p {:.2g}), {} (skewness {:.2f}, kurtosis {:+.2f}, p {:.2g})\n",
-                   robot.generated.joints[j].name, test.whiteness_p < 0.05 ? "not white" : "white", test.lag_one,
-                   test.whiteness_p, test.normality_p < 0.05 ? "not normal" : "normal", test.skewness,
-                   test.excess_kurtosis, test.normality_p);
+        fmt::print("  residual of {}: {}, {}\n", robot.generated.joints[j].name, whiteness_of(test),
+                   normality_of(test));
     }
     if (!result.instruments) {
         return;

@@ -8,6 +8,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <set>
 
 #include "support/command.hpp"
 
@@ -118,6 +119,7 @@ void expect_near(const json& parameter, double truth) {
 TEST_F(RefineCommand, FindsNothingWhereNothingIsMissing) {
     const json result = refine([](const instant&) { return std::array<double, 2>{}; });
     EXPECT_EQ(result["verdict"], "no_missing_effect");
+    EXPECT_EQ(result["unexplained"], json::array());
     EXPECT_TRUE(result["steps"].empty());
     EXPECT_EQ(result["before"], result["after"]);
 }
@@ -173,6 +175,27 @@ TEST_F(RefineCommand, DiagnosisNamesTheEffectAndAddsNothing) {
     EXPECT_EQ(result["verdict"], "unexplained_residual");
     EXPECT_EQ(result["candidates"][0]["effect"], "spring");
     EXPECT_TRUE(result["steps"].empty());
+}
+
+// A hose between two links: its torque at joint 2 is the product of both positions, which no entry of the catalogue
+// has.
+TEST_F(RefineCommand, ProposesAnEffectForStructureThatNoKnownOneFits) {
+    constexpr double truth = 0.05;  // N*m/rad^2
+    const json result = refine([](const instant& s) { return std::array<double, 2>{0.0, truth * s.q[0] * s.q[1]}; });
+    ASSERT_EQ(result["unexplained"].size(), 1U) << result["unexplained"].dump();
+    const json& structure = result["unexplained"][0];
+    EXPECT_EQ(structure["joint"], "j2");
+    EXPECT_EQ(std::set<std::string>(structure["signals"].begin(), structure["signals"].end()),
+              (std::set<std::string>{"q1", "q2"}));
+    EXPECT_GT(structure["explained_fraction"], 0.5);
+    EXPECT_EQ(structure["proposed"], "proposed_1");
+    expect_one(result, "proposed_1", {"j2"});
+    EXPECT_EQ(result["steps"][0]["torque"], "P1a*q*q_from");
+    EXPECT_EQ(result["steps"][0]["from"], json::array({"j1"}));
+    expect_near(result["steps"][0]["parameters"]["P1a"], truth);
+    EXPECT_NE(read_text(output() + "/proposed_1.yaml").find("proposed: true\n"), std::string::npos);
+    EXPECT_NE(read_text(output() + "/robot.yaml").find("{effect: proposed_1, joints: [j2], from: [j1]}"),
+              std::string::npos);
 }
 
 }  // namespace

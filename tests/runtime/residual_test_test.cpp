@@ -29,8 +29,8 @@ rejections reject(Noise noise) {
         }
         const estimate fit = least_squares(rows, least_squares_method::wls);
         for (const residual_test& test : test_residual(rows, fit)) {
-            result.whiteness += test.whiteness_p < 0.05 ? 0.5 / runs : 0.0;
-            result.normality += test.normality_p < 0.05 ? 0.5 / runs : 0.0;
+            result.whiteness += test.whiteness_p.value() < 0.05 ? 0.5 / runs : 0.0;
+            result.normality += test.normality_p.value() < 0.05 ? 0.5 / runs : 0.0;
         }
     }
     return result;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "idim/estimate.hpp"
@@ -10,11 +11,13 @@ namespace idim {
 struct residual_test {
     double lag_one = 0.0;             ///< correlation of neighbouring rows
     double correlation_length = 1.0;  ///< integrated autocorrelation time [rows]
-    int lags = 0;                     ///< that the test of whiteness takes together; 0: too few rows to test
-    double whiteness_p = 1.0;         ///< of Ljung and Box 1978 that the residual is white
+    int lags = 0;                     ///< that the test of whiteness takes together
+    /// Of Ljung and Box 1978 that the residual is white; none where the rows are too few.
+    std::optional<double> whiteness_p;
     double skewness = 0.0;
     double excess_kurtosis = 0.0;  ///< 0 for a normal variable
-    double normality_p = 1.0;      ///< of Jarque and Bera 1980 on rows thinned to one in the correlation length
+    /// Of Jarque and Bera 1980 on rows thinned to one in the correlation length; none where these are too few.
+    std::optional<double> normality_p;
     Eigen::Index thinned_rows = 0;
 };
 

@@ -14,10 +14,10 @@ namespace {
 
 constexpr int knots_alone = 8;
 constexpr int knots_in_pair = 5;
-constexpr double least_explained = 0.1;  ///< of the variance held back: less is nothing to act upon
-constexpr double simpler_share = 0.8;    ///< of what two signals explain is enough for one
-constexpr double significance = 0.05;    ///< over all joints
-constexpr int fewest_rows = 200;
+constexpr double least_explained = 0.1;   ///< of the variance held back: less is nothing to act upon
+constexpr double simpler_share = 0.8;     ///< of what two signals explain is enough for one
+constexpr double significance = 0.05;     ///< over all joints
+constexpr int rows_per_column = 3;        ///< of the surface and the model, on either data
 constexpr double blocks_in_memory = 4.0;  ///< correlation lengths that a shift exceeds
 constexpr std::uint64_t seed = 1;         ///< of the shifts: the same log gives the same answer
 
@@ -115,16 +115,22 @@ class dependence_test {
     dependence_test(const trace_fit& fit, int joint)
         : sources_(sources_for(fit, joint)),
           fitted_(residual_of(fit, joint, sources_, false)),
-          held_back_(residual_of(fit, joint, sources_, true)),
-          sets_(sets_of(sources_)) {
-        if (enough()) {
+          held_back_(residual_of(fit, joint, sources_, true)) {
+        if (fitted_.left.size() > 0) {
             model_ = orthonormal(fitted_.model);
             left_ = outside(model_, fitted_.left);
         }
+        const Eigen::Index rows = std::min(fitted_.left.size(), held_back_.left.size());
+        for (signal_set& set : sets_of(sources_)) {
+            const int columns = set.size() == 1 ? knots_alone : knots_in_pair * knots_in_pair;
+            if (rows >= rows_per_column * (model_.cols() + columns)) {
+                sets_.push_back(std::move(set));
+            }
+        }
     }
 
-    bool enough() const { return fitted_.left.size() >= fewest_rows && held_back_.left.size() >= fewest_rows; }
     const std::vector<signal_source>& sources() const { return sources_; }
+    /// Those that the rows suffice for, single signals first; empty where they suffice for none.
     const std::vector<signal_set>& sets() const { return sets_; }
 
     /// Part of the fitted residual that each set explains.
@@ -224,7 +230,7 @@ std::vector<signal_dependence> find_dependences(const trace_fit& fit) {
     for (int j = 0; j < joints; ++j) {
         const dependence_test test(fit, j);
         double explained = 0.0;
-        const std::optional<signal_set> set = test.enough() ? best_set(test, explained) : std::nullopt;
+        const std::optional<signal_set> set = test.sets().empty() ? std::nullopt : best_set(test, explained);
         if (set && test.p_value(*set, correlation_length(fit, fit.residual(), j), shifts) <= significance / joints) {
             signal_dependence dependence{j, {}, explained};
             for (const Eigen::Index s : *set) {
