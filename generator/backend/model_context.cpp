@@ -143,7 +143,8 @@ std::map<std::string, function_argument> all_arguments(int n, int b, int s, int 
     add("N", n, fmt::format("[{}] joint torques or forces [N*m or N]", n));
     add("G", n, fmt::format("[{}] joint torques or forces [N*m or N]", n));
     add("closed", loops,
-        fmt::format("[{}] of each loop the squared sine of the angle at its cut: it closes where this is positive", loops));
+        fmt::format("[{}] of each loop the squared sine of the angle at its cut: it closes where this is positive",
+                    loops));
     add("D", n, fmt::format("[{}] pivots, all positive if and only if M is positive definite", n));
     add("dtau_dq", n * n, fmt::format("[{} x {}] row-major, row = torque, column = position", n, n));
     add("dtau_dqd", n * n, fmt::format("[{} x {}] row-major, row = torque, column = velocity", n, n));
@@ -152,10 +153,9 @@ std::map<std::string, function_argument> all_arguments(int n, int b, int s, int 
 }
 
 std::vector<function_argument> arguments(const function_plan& plan, const robot_model& model) {
-    const auto known =
-        all_arguments(model.tree.dof(), static_cast<int>(model.base.parameters.size()),
-                      static_cast<int>(model.parameters.all.size()), static_cast<int>(model.parameters.states.size()),
-                      static_cast<int>(model.tree.closures.size()));
+    const auto known = all_arguments(
+        model.tree.dof(), static_cast<int>(model.base.parameters.size()), static_cast<int>(model.parameters.all.size()),
+        static_cast<int>(model.parameters.states.size()), static_cast<int>(model.tree.closures.size()));
     const standard_parameters& effects = model.parameters;
     const std::map<std::string, bool> is_used = {{"t", effects.uses_time},
                                                  {"load_t", !effects.gates.empty()},

@@ -41,7 +41,9 @@ std::vector<std::size_t> preference_order(const kinematic_tree& tree, const stan
     const auto key = [&](std::size_t p) {
         const standard_parameter& parameter = parameters.all[p];
         const int rank = rank_of_preference(tree.joints[static_cast<std::size_t>(parameter.joint)], parameter.kind);
-        return std::pair{rank, rank == 0 ? -parameter.joint : parameter.joint};
+        // Outermost first, but what moves with a drive before what a loop carries along.
+        const bool outward = rank != 0 || tree.joints[static_cast<std::size_t>(parameter.joint)].passive;
+        return std::pair{rank, outward ? parameter.joint + 1 : -parameter.joint};
     };
     std::stable_sort(order.begin(), order.end(), [&key](std::size_t a, std::size_t b) { return key(a) < key(b); });
     return order;

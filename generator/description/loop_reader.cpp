@@ -7,7 +7,8 @@ namespace idim::generator {
 namespace {
 
 constexpr std::size_t most_loops = 50;
-constexpr const char* example_of_cut = "two points [{link: <joint>, point: [x, y, z]}, {link: <joint>, point: [x, y, z]}]";
+constexpr const char* example_of_cut =
+    "two points [{link: <joint>, point: [x, y, z]}, {link: <joint>, point: [x, y, z]}]";
 
 int find_link(const yaml_value& written, const std::vector<joint_description>& joints) {
     const std::string name = written.text("the name of a joint, or base");
@@ -44,8 +45,8 @@ int read_passive(const yaml_value& written, std::vector<joint_description>& join
         throw input_error(written.where(), "joint " + quote(joint.name) + " is not revolute, expected one that is");
     }
     if (joint.passive) {
-        throw input_error(written.where(), "joint " + quote(joint.name) +
-                                               " is passive twice, expected joints that one loop determines");
+        throw input_error(written.where(),
+                          "joint " + quote(joint.name) + " is passive twice, expected joints that one loop determines");
     }
     if (joint.theta.text != "q") {
         throw input_error(joint.theta.where, "\"" + joint.theta.text + "\" given, expected \"q\" for a joint whose " +
@@ -119,9 +120,10 @@ std::string to_string(const loop_description& loop, const std::vector<joint_desc
                 ", " + at.point[1].text + ", " + at.point[2].text + "]}";
     }
     text += "], passive: [" + name(loop.passive[0]) + ", " + name(loop.passive[1]) + "], assembly: ";
-    return text + (loop.assembly == loop_assembly::parallelogram ? "parallelogram"
-                   : loop.assembly == loop_assembly::clockwise   ? "-1"
-                                                                 : "1") +
+    return text +
+           (loop.assembly == loop_assembly::parallelogram ? "parallelogram"
+            : loop.assembly == loop_assembly::clockwise   ? "-1"
+                                                          : "1") +
            "}";
 }
 

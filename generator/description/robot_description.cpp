@@ -558,8 +558,8 @@ robot_description bare_urdf(const std::string& file) {
 
 robot_description read_yaml_robot(const std::string& file) {
     const yaml_value root = read_yaml(file);
-    const yaml_fields fields(root,
-                             {"name", "gravity", "constants", "joints", "loops", "effects", "control", "parameters", "urdf"});
+    const yaml_fields fields(
+        root, {"name", "gravity", "constants", "joints", "loops", "effects", "control", "parameters", "urdf"});
     robot_description robot;
     const auto urdf_file = fields.find("urdf");
     const auto name = urdf_file ? fields.find("name") : fields.require("name", "the name of the robot");

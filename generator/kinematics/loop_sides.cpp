@@ -136,8 +136,7 @@ std::array<std::vector<int>, 2> ways(const planar_loop& loop, const kinematic_tr
         result[side] = tree.path_to_base(loop.cut[side].link);
         std::reverse(result[side].begin(), result[side].end());
     }
-    const auto [a, b] =
-        std::mismatch(result[0].begin(), result[0].end(), result[1].begin(), result[1].end());
+    const auto [a, b] = std::mismatch(result[0].begin(), result[0].end(), result[1].begin(), result[1].end());
     const auto common = a - result[0].begin();
     for (std::vector<int>& way : result) {
         way.erase(way.begin(), way.begin() + common);
@@ -178,8 +177,7 @@ void check_heights(const planar_loop& loop, const kinematic_tree& tree, const ex
         throw input_error(loop.cut_where,
                           fmt::format("the two points of the cut are {:.6g} m apart along the axis of joint {}, "
                                       "expected points in one plane across it",
-                                      std::abs(height),
-                                      tree.joints[static_cast<std::size_t>(loop.passive[0])].name));
+                                      std::abs(height), tree.joints[static_cast<std::size_t>(loop.passive[0])].name));
     }
 }
 

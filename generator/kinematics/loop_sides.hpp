@@ -12,10 +12,10 @@ namespace idim::generator {
 struct loop_side {
     /// From joint to joint of those that are passive, the first from the common link, the last to the cut.
     std::vector<planar_vector> segments;
-    std::vector<int> passive;         ///< in the order of the way
-    std::vector<int> sense;           ///< of each: +1 where its axis is the plane's normal, -1 where it is opposite
-    std::vector<GiNaC::ex> turned;    ///< of each: the angle of the link before it
-    GiNaC::ex height = 0;             ///< of the cut over the plane
+    std::vector<int> passive;       ///< in the order of the way
+    std::vector<int> sense;         ///< of each: +1 where its axis is the plane's normal, -1 where it is opposite
+    std::vector<GiNaC::ex> turned;  ///< of each: the angle of the link before it
+    GiNaC::ex height = 0;           ///< of the cut over the plane
 };
 
 /// Both sides: the first is the one with the first passive joint, about whose axis or against it the plane is seen.

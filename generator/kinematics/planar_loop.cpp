@@ -163,14 +163,12 @@ class loop_closer {
         const auto& terms = between_.terms();
         const plane_term& far = &near == &terms[0] ? terms[1] : terms[0];
         const linear_angle first = turning(bars_[0].segment.terms().front(), far);
-        const linear_angle second =
-            turning(bars_[1].segment.terms().front(), {near.angle, ex(-1) * near.xy});
+        const linear_angle second = turning(bars_[1].segment.terms().front(), {near.angle, ex(-1) * near.xy});
         set_linear(joints_[0], first);
-        set_linear(joints_[1], joints_[1].on_first_bar
-                                   ? linear_angle{(second.angle - first.angle).expand(),
-                                                  second.further * std::conj(first.further),
-                                                  second.offset - first.offset}
-                                   : second);
+        set_linear(joints_[1], joints_[1].on_first_bar ? linear_angle{(second.angle - first.angle).expand(),
+                                                                      second.further * std::conj(first.further),
+                                                                      second.offset - first.offset}
+                                                       : second);
     }
 
     void set_linear(const passive_joint& passive, const linear_angle& turned_by) const {
@@ -227,7 +225,8 @@ class loop_closer {
 
     void check_that_it_closes() const {
         if (between_.terms().empty() || bars_[0].segment.terms().empty() || bars_[1].segment.terms().empty()) {
-            throw input_error(loop_.where, "two of the passive joints and the cut lie in one axis, expected a triangle");
+            throw input_error(loop_.where,
+                              "two of the passive joints and the cut lie in one axis, expected a triangle");
         }
         const segment_length r(*this, between_);
         const segment_length w(*this, bars_[0].segment);
@@ -326,8 +325,8 @@ class loop_closer {
         for (std::size_t k = 0; k < tree_.q.size(); ++k) {
             const GiNaC::symbol& q = tree_.q[k];
             const std::string number = std::to_string(k + 1);
-            const plane_pair gap = position("g" + number, turned_derivative(w, q) - turned_derivative(v, q) -
-                                                              between_.derivative(q));
+            const plane_pair gap =
+                position("g" + number, turned_derivative(w, q) - turned_derivative(v, q) - between_.derivative(q));
             w.rates.push_back(rate("Gw" + number, gap, v.side));
             v.rates.push_back(rate("Gv" + number, gap, w.side));
             w.velocity += w.rates.back() * tree_.qd[k];
@@ -357,8 +356,7 @@ class loop_closer {
                 return passive.sense * (carried ? value - carrying : value);
             };
             kinematic_joint& moved = joint(passive.joint);
-            const plane_pair turning =
-                carried ? product(own.turning, conjugate(bars_[0].turning)) : own.turning;
+            const plane_pair turning = carried ? product(own.turning, conjugate(bars_[0].turning)) : own.turning;
             moved.theta = {define(tree_.from_positions, "C" + moved.label, turning[0]),
                            define(tree_.from_positions, "S" + moved.label, passive.sense * turning[1])};
             moved.variable = 2 * GiNaC::atan(moved.theta.sin / (1 + moved.theta.cos));

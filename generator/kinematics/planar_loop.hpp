@@ -30,8 +30,8 @@ struct planar_loop {
 /// the drift likewise from accelerations. A parallelogram has angles linear in the coordinates.
 ///
 /// Throws input_error where a passive joint is not in the loop, the links do not move in one plane, a joint of the loop
-/// is moved by another loop in a nonlinear way, no coordinate moves the loop, it closes nowhere within the ranges, or it
-/// is a parallelogram and is not said to be, or the reverse.
+/// is moved by another loop in a nonlinear way, no coordinate moves the loop, it closes nowhere within the ranges, or
+/// it is a parallelogram and is not said to be, or the reverse.
 void close_loop(const planar_loop& loop, kinematic_tree& tree);
 
 }  // namespace idim::generator

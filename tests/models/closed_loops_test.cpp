@@ -84,7 +84,7 @@ const loop_robot robots[] = {
      "  - {name: tube, antecedent: base, d: 0.3, theta: q}\n"
      "  - {name: piston, type: prismatic, alpha: pi/2, r: q + 0.5, limits: {position: [-0.2, 0.2]}}\n"
      "loops:\n"
-     "  - cut: [{link: boom, point: [0.4, 0.1, 0]}, {link: piston, point: [0, 0.02, 0.1]}]\n"
+     "  - cut: [{link: boom, point: [0.4, 0.1, 0]}, {link: piston, point: [0.02, 0, 0.1]}]\n"
      "    passive: [boom, tube]\n"
      "    assembly: -1\n",
      {}},
@@ -97,7 +97,8 @@ const loop_robot robots[] = {
      "  - {name: j3, d: 0.2, theta: q}\n"
      "  - {name: j4, antecedent: coupler, d: 0.9, theta: q}\n"
      "loops:\n"
-     "  - {cut: [{link: coupler, point: [0.5, 0, 0]}, {link: rocker, point: [0.4, 0, 0]}], passive: [coupler, rocker],\n"
+     "  - {cut: [{link: coupler, point: [0.5, 0, 0]}, {link: rocker, point: [0.4, 0, 0]}], passive: [coupler, "
+     "rocker],\n"
      "     assembly: 1}\n"
      "  - {cut: [{link: j3, point: [0.5, 0, 0]}, {link: j4, point: [0.45, 0, 0]}], passive: [j3, j4], assembly: 1}\n",
      {}},
@@ -188,8 +189,8 @@ Eigen::Index rank_by_svd(const robot_under_test& of, const std::vector<int>& fou
     const auto columns = static_cast<Eigen::Index>(10 * of.links.size() + 5);
     Eigen::MatrixXd torques(n * static_cast<Eigen::Index>(states.size()), columns);
     for (Eigen::Index c = 0; c < columns; ++c) {
-        const mujoco_loops robot = mujoco_loops_of(
-            of.description, plausible_links(static_cast<int>(of.links.size()), random), fourth);
+        const mujoco_loops robot =
+            mujoco_loops_of(of.description, plausible_links(static_cast<int>(of.links.size()), random), fourth);
         for (std::size_t s = 0; s < states.size(); ++s) {
             torques.block(static_cast<Eigen::Index>(s) * n, c, n, 1) = robot.inverse_dynamics(states[s]);
         }
@@ -290,14 +291,14 @@ TEST(ClosedLoops, FiveBarHasTheTorquesOfTheLagrangianOfCirclesThatIntersect) {
         const Eigen::Vector2d x = (b - a) / d;
         const Eigen::Vector2d c =
             a + along * x + std::sqrt(first * first - along * along) * Eigen::Vector2d(-x.y(), x.x());
-        return Eigen::Vector4d(q[0] + 0.2, q[1],
-                               std::atan2(c.y() - a.y(), c.x() - a.x()) - std::atan2(0.1, 0.5),
+        return Eigen::Vector4d(q[0] + 0.2, q[1], std::atan2(c.y() - a.y(), c.x() - a.x()) - std::atan2(0.1, 0.5),
                                std::atan2(c.y() - b.y(), c.x() - b.x()));
     };
     const auto centres = [&](const Eigen::Vector2d& q) {
         const Eigen::Vector4d phi = angles(q);
         const std::array<Eigen::Vector2d, 4> origin = {
-            Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(0.2, 0.0), 0.3 * Eigen::Vector2d(std::cos(phi[0]), std::sin(phi[0])),
+            Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(0.2, 0.0),
+            0.3 * Eigen::Vector2d(std::cos(phi[0]), std::sin(phi[0])),
             Eigen::Vector2d(0.2, 0.0) + 0.25 * Eigen::Vector2d(std::cos(phi[1]), std::sin(phi[1]))};
         Eigen::Matrix<double, 2, 4> result;
         for (int j = 0; j < 4; ++j) {
@@ -343,20 +344,20 @@ TEST(ClosedLoops, FiveBarHasTheTorquesOfTheLagrangianOfCirclesThatIntersect) {
 }
 
 TEST(ClosedLoops, FrictionOfAPassiveJointActsThroughItsRates) {
-    const std::string text = std::string(robots[0].text) +
-                             "effects: [{effect: viscous_friction, joints: [j3]}, {effect: coulomb_friction, joints: "
-                             "[j4]},\n          {effect: rotor_inertia, joints: [j4]}, {effect: spring, joints: [j3]}]\n";
+    const std::string text =
+        std::string(robots[0].text) +
+        "effects: [{effect: viscous_friction, joints: [j3]}, {effect: coulomb_friction, joints: "
+        "[j4]},\n          {effect: rotor_inertia, joints: [j4]}, {effect: spring, joints: [j3]}]\n";
     robot_under_test robot(text, {}, 37);
-    const Eigen::VectorXd chi = robot.model.regroup(
-        {{"Fv_j3", 0.3}, {"Fc_j4", 0.7}, {"Ia_j4", 0.2}, {"K_j3", 1.5}, {"K0_j3", -0.4}});
+    const Eigen::VectorXd chi =
+        robot.model.regroup({{"Fv_j3", 0.3}, {"Fc_j4", 0.7}, {"Ia_j4", 0.2}, {"K_j3", 1.5}, {"K0_j3", -0.4}});
     for (int k = 0; k < 20; ++k) {
         const joint_state s = robot.state();
         const joint_state all = robot.oracle->motion(s);
         const Eigen::MatrixXd G = robot.oracle->rates(all.q);
         const double angle = std::remainder(all.q[2], 2.0 * M_PI);
-        const Eigen::VectorXd tau =
-            G.row(2).transpose() * (0.3 * all.qd[2] + 1.5 * angle - 0.4) +
-            G.row(3).transpose() * (0.7 * (all.qd[3] > 0.0 ? 1.0 : -1.0) + 0.2 * all.qdd[3]);
+        const Eigen::VectorXd tau = G.row(2).transpose() * (0.3 * all.qd[2] + 1.5 * angle - 0.4) +
+                                    G.row(3).transpose() * (0.7 * (all.qd[3] > 0.0 ? 1.0 : -1.0) + 0.2 * all.qdd[3]);
         EXPECT_LE(deviation(robot.model.inverse_dynamics(s, chi), tau), against_mujoco);
         EXPECT_LE(deviation(robot.model.regressor(s) * chi, tau), against_mujoco);
         int pivot = -1;
@@ -370,8 +371,7 @@ TEST(ClosedLoops, FrictionOfAPassiveJointActsThroughItsRates) {
 TEST(ClosedLoops, PassiveJointsHaveNoFrictionUnlessItIsDeclared) {
     const temporary_folder folder;
     const std::string text = std::string(robots[0].text) + "effects: [rotor_inertia, viscous_friction]\n";
-    const generator::base_report base =
-        generator::find_base(folder.write("robot.yaml", text), templates_folder);
+    const generator::base_report base = generator::find_base(folder.write("robot.yaml", text), templates_folder);
     for (const auto& parameter : base.parameters) {
         EXPECT_EQ(parameter.name.find("Fv_"), std::string::npos) << parameter.name;
         EXPECT_EQ(parameter.name.find("Ia_"), std::string::npos) << parameter.name;

@@ -86,8 +86,7 @@ const bad_robot bad_robots[] = {
     {"LoopOfAnUnknownLink",
      bars + "  - cut: [{link: j3, point: [0.3, 0, 0]}, {link: j9, point: [0.3, 0, 0]}]\n" + passive + assembly,
      ":8: loops[1].cut[2].link: expected the name of a joint of this robot, or base, got \"j9\""},
-    {"JointThatTwoLoopsDetermine",
-     bars + cut + passive + assembly + cut + passive + assembly,
+    {"JointThatTwoLoopsDetermine", bars + cut + passive + assembly + cut + passive + assembly,
      ":12: loops[2].passive[1]: joint \"j3\" is passive twice"},
     {"PassiveJointThatTurnsByItsOwnRatio",
      "name: a\njoints:\n  - {name: j1, theta: q}\n  - {name: j2, antecedent: base, d: 0.2, theta: 2*q}\n"

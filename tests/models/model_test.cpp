@@ -1,5 +1,5 @@
-// Properties of the generated models, for every robot of robots/ without closed loops. Other formulas and other code give the expected
-// values: Orocos KDL for the rigid links, closed forms for the effects.
+// Properties of the generated models, for every robot of robots/ without closed loops. Other formulas and other code
+// give the expected values: Orocos KDL for the rigid links, closed forms for the effects.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -161,7 +161,8 @@ Eigen::VectorXd mujoco_loops::closed(const Eigen::VectorXd& active, const Eigen:
         all(active_) = active;
         place(all);
         for (int k = 0; k < steps && gaps().cwiseAbs().maxCoeff() > largest_gap; ++k) {
-            const Eigen::VectorXd step = jacobian()(Eigen::all, passive_).completeOrthogonalDecomposition().solve(gaps());
+            const Eigen::VectorXd step =
+                jacobian()(Eigen::all, passive_).completeOrthogonalDecomposition().solve(gaps());
             all(passive_) -= step * std::min(1.0, 0.5 / step.cwiseAbs().maxCoeff());
             place(all);
         }
@@ -243,8 +244,14 @@ mujoco_loops mujoco_loops_of(const generator::robot_description& robot, const st
             throw std::runtime_error(joint.name + " does not turn by q plus a constant");
         }
         mdh_row row;
-        row = {value(joint.gamma, 0.0), value(joint.b, 0.0), value(joint.alpha, 0.0), value(joint.d, 0.0),
-               value(joint.theta, 0.0), value(joint.r, 0.0), 1.0, prismatic};
+        row = {value(joint.gamma, 0.0),
+               value(joint.b, 0.0),
+               value(joint.alpha, 0.0),
+               value(joint.d, 0.0),
+               value(joint.theta, 0.0),
+               value(joint.r, 0.0),
+               1.0,
+               prismatic};
         rows.push_back({joint.antecedent, row});
     }
     std::vector<held_points> loops;
