@@ -6,6 +6,7 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <stdexcept>
 
@@ -44,10 +45,10 @@ std::string body(const std::vector<tree_row>& rows, const std::vector<rigid_link
     const Eigen::Matrix3d& I = links[j].central_inertia;
     const Eigen::Vector3d& c = links[j].centre;
     std::string text = fmt::format(
-        "<body name=\"b{}\" pos=\"{}\" quat=\"{}\">\n<joint name=\"j{}\" type=\"{}\" axis=\"0 0 1\"/>\n<inertial "
+        "<body name=\"b{}\" pos=\"{}\" quat=\"{}\">\n<joint name=\"j{}\" type=\"{}\" axis=\"0 0 {}\"/>\n<inertial "
         "pos=\"{}\" mass=\"{:.17g}\" fullinertia=\"{}\"/>\n",
         j, numbers({p.x(), p.y(), p.z()}), numbers({turned.w(), turned.x(), turned.y(), turned.z()}), j,
-        rows[j].row.prismatic ? "slide" : "hinge", numbers({c.x(), c.y(), c.z()}), links[j].mass,
+        rows[j].row.prismatic ? "slide" : "hinge", rows[j].row.rate, numbers({c.x(), c.y(), c.z()}), links[j].mass,
         numbers({I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2)}));
     for (std::size_t k = 0; k < rows.size(); ++k) {
         text += rows[k].antecedent == static_cast<int>(j) ? body(rows, links, k) : "";
@@ -194,12 +195,17 @@ joint_state mujoco_loops::motion(const joint_state& active) const {
         throw std::runtime_error("the loops do not close");
     }
     const Eigen::MatrixXd G = rates(q);
-    const auto later = [&](double h) -> Eigen::VectorXd {
-        return rates(closed(active.q + h * active.qd, q + h * G * active.qd)) * active.qd;
+    const Eigen::VectorXd qd = G * active.qd;
+    const auto moving = [&](double h) -> Eigen::VectorXd {
+        place(q + h * qd);
+        return jacobian() * qd;
     };
     constexpr double h = 1e-3;
-    const Eigen::VectorXd drift = (8.0 * (later(h) - later(-h)) - (later(2.0 * h) - later(-2.0 * h))) / (12.0 * h);
-    return {q, G * active.qd, G * active.qdd + drift};
+    const Eigen::VectorXd gap = (8.0 * (moving(h) - moving(-h)) - (moving(2.0 * h) - moving(-2.0 * h))) / (12.0 * h);
+    place(q);
+    Eigen::VectorXd qdd = G * active.qdd;
+    qdd(passive_) -= jacobian()(Eigen::all, passive_).completeOrthogonalDecomposition().solve(gap);
+    return {q, qd, qdd};
 }
 
 Eigen::VectorXd mujoco_loops::inverse_dynamics(const joint_state& active) const {
@@ -240,8 +246,9 @@ mujoco_loops mujoco_loops_of(const generator::robot_description& robot, const st
     for (const auto& joint : robot.joints) {
         const bool prismatic = joint.type == generator::joint_type::prismatic;
         const generator::expression_text& variable = prismatic ? joint.r : joint.theta;
-        if (value(variable, 1.0) - value(variable, 0.0) != 1.0) {
-            throw std::runtime_error(joint.name + " does not turn by q plus a constant");
+        const double rate = std::round(1e9 * (value(variable, 1.0) - value(variable, 0.0))) / 1e9;
+        if (std::abs(rate) != 1.0) {
+            throw std::runtime_error(joint.name + " does not move by q or -q plus a constant");
         }
         mdh_row row;
         row = {value(joint.gamma, 0.0),

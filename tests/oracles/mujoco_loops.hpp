@@ -31,7 +31,8 @@ struct held_points {
 };
 
 /// A robot with closed loops: its tree in MuJoCo, cut open. Passive joints are found by Newton's method on the distance
-/// of the points, rates by MuJoCo's Jacobians, and their change along a motion by differences of order four.
+/// of the points, rates by MuJoCo's Jacobians, and what changes of these do along a motion by differences of order
+/// four.
 class mujoco_loops {
   public:
     mujoco_loops(const std::array<double, 3>& gravity, const std::vector<tree_row>& rows,
