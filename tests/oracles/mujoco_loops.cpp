@@ -222,14 +222,17 @@ Eigen::VectorXd mujoco_loops::inverse_dynamics(const joint_state& active) const 
 
 double mujoco_loops::energy(const Eigen::VectorXd& active, const Eigen::VectorXd& velocity) const {
     const Eigen::VectorXd q = closed(active);
-    const Eigen::VectorXd qd = rates(q) * velocity;
-    for (std::size_t j = 0; j < address_.size(); ++j) {
-        data_->qvel[address_[j]] = qd[static_cast<Eigen::Index>(j)];
-    }
+    Eigen::VectorXd qd(model_->nv);
+    qd(address_) = rates(q) * velocity;
     mj_forward(model_.get(), data_.get());
-    mj_energyPos(model_.get(), data_.get());
-    mj_energyVel(model_.get(), data_.get());
-    return data_->energy[0] + data_->energy[1];
+    Eigen::MatrixXd M(model_->nv, model_->nv);  // symmetric: row or column major are the same
+    mj_fullM(model_.get(), M.data(), data_->qM);
+    double energy = 0.5 * qd.dot(M * qd);
+    const Eigen::Map<const Eigen::Vector3d> gravity(model_->opt.gravity);
+    for (int body = 1; body < model_->nbody; ++body) {
+        energy -= model_->body_mass[body] * gravity.dot(Eigen::Map<const Eigen::Vector3d>(data_->xipos + 3 * body));
+    }
+    return energy;
 }
 
 mujoco_loops mujoco_loops_of(const generator::robot_description& robot, const std::vector<rigid_link>& links,
@@ -257,7 +260,7 @@ mujoco_loops mujoco_loops_of(const generator::robot_description& robot, const st
                value(joint.d, 0.0),
                value(joint.theta, 0.0),
                value(joint.r, 0.0),
-               1.0,
+               rate,
                prismatic};
         rows.push_back({joint.antecedent, row});
     }
