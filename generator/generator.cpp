@@ -47,6 +47,7 @@ base_report report(const robot_model& model) {
     result.exact_rank = evidence.exact_rank;
     result.exact_points = evidence.exact_points;
     result.modulo_prime_only = evidence.modulo_prime_only;
+    result.has_loops = !model.tree.closures.empty();
     return result;
 }
 

@@ -26,6 +26,7 @@ struct base_report {
     int exact_rank = 0;
     int exact_points = 0;
     int modulo_prime_only = 0;
+    bool has_loops = false;  ///< that are no parallelograms: then exact_points are points modulo a prime, not rational
 };
 
 struct operation_table {

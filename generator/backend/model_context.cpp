@@ -81,9 +81,18 @@ std::vector<function_plan> plans() {
     };
 }
 
-/// Functions of robots whose effects need more than the motion.
-std::vector<function_plan> further_plans(const standard_parameters& parameters) {
+/// Functions of robots with loops, and of those whose effects need more than the motion.
+std::vector<function_plan> further_plans(const robot_model& model) {
+    const standard_parameters& parameters = model.parameters;
     std::vector<function_plan> result;
+    if (!model.tree.closures.empty()) {
+        result.push_back({"closure",
+                          "How well the loops close. The other models have no value (NaN) where one does not.",
+                          {"q"},
+                          {"closed"},
+                          closure_model,
+                          {}});
+    }
     if (parameters.uses_rigid_torque || parameters.has_elastic_joint()) {
         result.push_back({"rigid_torque",
                           "Torque of the links and payloads alone.",
@@ -110,7 +119,7 @@ std::vector<function_plan> further_plans(const standard_parameters& parameters) 
 }
 
 /// Every argument of every function, by its name.
-std::map<std::string, function_argument> all_arguments(int n, int b, int s, int states) {
+std::map<std::string, function_argument> all_arguments(int n, int b, int s, int states, int loops) {
     std::map<std::string, function_argument> result;
     const auto add = [&result](const std::string& name, int size, const std::string& meaning) {
         result[name] = {name, size, name + " " + meaning};
@@ -133,6 +142,9 @@ std::map<std::string, function_argument> all_arguments(int n, int b, int s, int 
     add("M", n * n, fmt::format("[{} x {}] symmetric", n, n));
     add("N", n, fmt::format("[{}] joint torques or forces [N*m or N]", n));
     add("G", n, fmt::format("[{}] joint torques or forces [N*m or N]", n));
+    add("closed", loops,
+        fmt::format("[{}] of each loop the squared sine of the angle at its cut: it closes where this is positive",
+                    loops));
     add("D", n, fmt::format("[{}] pivots, all positive if and only if M is positive definite", n));
     add("dtau_dq", n * n, fmt::format("[{} x {}] row-major, row = torque, column = position", n, n));
     add("dtau_dqd", n * n, fmt::format("[{} x {}] row-major, row = torque, column = velocity", n, n));
@@ -141,9 +153,9 @@ std::map<std::string, function_argument> all_arguments(int n, int b, int s, int 
 }
 
 std::vector<function_argument> arguments(const function_plan& plan, const robot_model& model) {
-    const auto known =
-        all_arguments(model.tree.dof(), static_cast<int>(model.base.parameters.size()),
-                      static_cast<int>(model.parameters.all.size()), static_cast<int>(model.parameters.states.size()));
+    const auto known = all_arguments(
+        model.tree.dof(), static_cast<int>(model.base.parameters.size()), static_cast<int>(model.parameters.all.size()),
+        static_cast<int>(model.parameters.states.size()), static_cast<int>(model.tree.closures.size()));
     const standard_parameters& effects = model.parameters;
     const std::map<std::string, bool> is_used = {{"t", effects.uses_time},
                                                  {"load_t", !effects.gates.empty()},
@@ -327,7 +339,7 @@ template_context build_context(const robot_model& model, const file_origin& orig
         functions.push_back(derive(plan, model, origin.cost));
     }
     functions.push_back(derive_regrouping(model));
-    for (const function_plan& plan : further_plans(model.parameters)) {
+    for (const function_plan& plan : further_plans(model)) {
         functions.push_back(derive(plan, model, origin.cost));
     }
     if (derivatives) {

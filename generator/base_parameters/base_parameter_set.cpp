@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <random>
@@ -40,7 +41,9 @@ std::vector<std::size_t> preference_order(const kinematic_tree& tree, const stan
     const auto key = [&](std::size_t p) {
         const standard_parameter& parameter = parameters.all[p];
         const int rank = rank_of_preference(tree.joints[static_cast<std::size_t>(parameter.joint)], parameter.kind);
-        return std::pair{rank, rank == 0 ? -parameter.joint : parameter.joint};
+        // Outermost first, but what moves with a drive before what a loop carries along.
+        const bool outward = rank != 0 || tree.joints[static_cast<std::size_t>(parameter.joint)].passive;
+        return std::pair{rank, outward ? parameter.joint + 1 : -parameter.joint};
     };
     std::stable_sort(order.begin(), order.end(), [&key](std::size_t a, std::size_t b) { return key(a) < key(b); });
     return order;
@@ -51,7 +54,7 @@ std::vector<std::size_t> preference_order(const kinematic_tree& tree, const stan
 /// are drawn at random.
 class free_functions {
   public:
-    explicit free_functions(std::uint64_t seed) : random_(seed) {}
+    free_functions(const standard_regressor& W, std::uint64_t seed) : W_(W), random_(seed) {}
 
     double function(function_kind kind, signed_node argument, double x, double y) {
         switch (kind) {
@@ -62,8 +65,10 @@ class free_functions {
                 return sign(argument.id) * x;
             case function_kind::sign:
                 return sign(argument.id);
+            case function_kind::sqrt:
+                return W_.is_root(argument.id) ? std::sqrt(x) : own_value(kind, argument.id);
             default:
-                return others_.try_emplace({kind, argument.id}, uniform()).first->second;
+                return own_value(kind, argument.id);
         }
     }
     void draw_again() {
@@ -72,9 +77,13 @@ class free_functions {
     }
 
   private:
+    double own_value(function_kind kind, int node) {
+        return others_.try_emplace({kind, node}, uniform()).first->second;
+    }
     double uniform() { return static_cast<double>(random_() >> 11) * 0x1p-52 - 1.0; }
     double sign(int node) { return signs_.try_emplace(node, uniform() < 0.0 ? -1.0 : 1.0).first->second; }
 
+    const standard_regressor& W_;
     std::mt19937_64 random_;
     std::map<int, double> signs_;
     std::map<std::pair<function_kind, int>, double> others_;
@@ -88,6 +97,17 @@ struct true_functions {
     void draw_again() {}
 };
 
+/// Rows at one state as small or large as they are there, or nothing where a loop does not close. Near singular
+/// positions of loops they are large beyond measure: then scaled.
+bool is_usable(const standard_regressor& W, Eigen::Ref<Eigen::MatrixXd> rows) {
+    if (W.has_roots) {
+        for (auto row : rows.rowwise()) {
+            row /= std::max(1.0, row.cwiseAbs().maxCoeff());
+        }
+    }
+    return rows.allFinite();
+}
+
 /// W_st at random states of order one, rows at least twice the columns.
 template <class Functions>
 Eigen::MatrixXd sample_regressor(const standard_regressor& W, const kinematic_tree& tree, Functions functions) {
@@ -97,7 +117,12 @@ Eigen::MatrixXd sample_regressor(const standard_regressor& W, const kinematic_tr
     const auto uniform = [&random] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1.0; };
     graph_evaluator<double> evaluator(W.graph, double_arithmetic::number);
     const std::vector<graph_symbol>& symbols = W.graph.symbols();
+    const auto dof = static_cast<Eigen::Index>(W.dof);
+    std::size_t tries = 0;
     for (Eigen::Index row = 0; row < sampled.rows();) {
+        if (++tries > 1000 * samples) {
+            throw rank_disagreement("base parameters: too few states are found where all loops close");
+        }
         std::vector<double> values(symbols.size(), 0.0);
         functions.draw_again();
         for (std::size_t i = 0; i < W.first_virtual(); ++i) {
@@ -109,9 +134,11 @@ Eigen::MatrixXd sample_regressor(const standard_regressor& W, const kinematic_tr
         for (std::size_t v = W.first_virtual(); v < values.size(); ++v) {
             values[v] = 1.0;
             const std::vector<double> columns = evaluator.evaluate(values, functions);
-            sampled.row(row++) = Eigen::Map<const Eigen::RowVectorXd>(columns.data(), sampled.cols());
+            sampled.row(row + static_cast<Eigen::Index>(v - W.first_virtual())) =
+                Eigen::Map<const Eigen::RowVectorXd>(columns.data(), sampled.cols());
             values[v] = 0.0;
         }
+        row += is_usable(W, sampled.middleRows(row, dof)) ? dof : 0;
     }
     return sampled;
 }
@@ -156,7 +183,7 @@ base_parameter_set find_base_parameters(const kinematic_tree& tree, const standa
     column_selection by_qr = select_by_qr(sampled, preference, qr_tolerance);
     regrouping groups(W, tree, parameters, preference);
     if (by_qr.kept != groups.selection().kept) {
-        sampled = sample_regressor(W, tree, free_functions(2));
+        sampled = sample_regressor(W, tree, free_functions(W, 2));
         by_qr = select_by_qr(sampled, preference, qr_tolerance);
     }
     compare(by_qr, groups.selection());

@@ -24,13 +24,21 @@ prime_field prime_field::inverse() const {
     if (is_zero()) {
         throw std::domain_error("no inverse of zero in a prime field");
     }
+    return power(*this, modulus - 2);
+}
+
+std::optional<prime_field> prime_field::root() const {
+    const prime_field candidate = power(*this, (modulus + 1) / 4);  // the modulus is 3 modulo 4
+    return candidate * candidate == *this ? std::optional(candidate) : std::nullopt;
+}
+
+prime_field prime_field::power(prime_field base, std::uint64_t exponent) {
     prime_field result(std::uint64_t{1});
-    prime_field square = *this;
-    for (std::uint64_t exponent = modulus - 2; exponent != 0; exponent >>= 1) {
+    for (; exponent != 0; exponent >>= 1) {
         if ((exponent & 1) != 0) {
-            result = result * square;
+            result = result * base;
         }
-        square = square * square;
+        base = base * base;
     }
     return result;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "graph/rational.hpp"
 
@@ -22,6 +23,9 @@ class prime_field {
     /// Throws std::domain_error for zero.
     prime_field inverse() const;
 
+    /// A root, or nothing where there is none, as for half of the elements.
+    std::optional<prime_field> root() const;
+
     prime_field operator-() const { return prime_field(value_ == 0 ? 0 : modulus - value_); }
     friend prime_field operator+(prime_field a, prime_field b) { return reduced(a.value_ + b.value_); }
     friend prime_field operator-(prime_field a, prime_field b) { return reduced(a.value_ + modulus - b.value_); }
@@ -40,6 +44,8 @@ class prime_field {
         result.value_ = sum >= modulus ? sum - modulus : sum;
         return result;
     }
+
+    static prime_field power(prime_field base, std::uint64_t exponent);
 
     std::uint64_t value_ = 0;
 };

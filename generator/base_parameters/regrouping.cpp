@@ -91,6 +91,14 @@ bool enters(const GiNaC::symbol& symbol, const kinematic_joint& joint) {
                        [&symbol](const joint_rate& rate) { return rate.factor.has(symbol); });
 }
 
+/// Each loop closes at half of the points of the field; with very many of them at hardly any.
+void check_tries(std::size_t tried, std::size_t found) {
+    constexpr std::size_t most = 100000;
+    if (tried > most * (found + 1)) {
+        throw rank_disagreement("base parameters: too many loops, no points are found where all of them close");
+    }
+}
+
 std::vector<prime_field> values_of(const std::vector<monomial>& monomials, const std::vector<prime_field>& constants) {
     std::vector<prime_field> result;
     for (const monomial& m : monomials) {
@@ -114,11 +122,15 @@ regrouping::regrouping(const standard_regressor& W, const kinematic_tree& tree, 
       is_kept_(W.columns, false) {
     const std::vector<prime_field> constants = to_field(own_constants_);
     field_matrix rows(W.columns);
-    for (int s = 0; s < points_; ++s) {
-        sample_point<prime_field> point(W, static_cast<std::uint64_t>(s) + 1);
-        for (const std::vector<prime_field>& row : point.rows(evaluator_, constants)) {
+    std::size_t found = 0;
+    for (std::uint64_t seed = 1; found < static_cast<std::size_t>(points_); ++seed) {
+        check_tries(seed, found);
+        sample_point<prime_field> point(W, seed);
+        const std::vector<std::vector<prime_field>> at_point = point.rows(evaluator_, constants);
+        for (const std::vector<prime_field>& row : at_point) {
             rows.append(row);
         }
+        found += at_point.empty() ? 0 : 1;
     }
     own_ = select_exactly(rows, preference);
     const std::vector<std::size_t> rigid = without_effects(preference);
@@ -168,8 +180,14 @@ regrouping::constants_draw regrouping::draw(std::size_t s, const std::vector<std
             result.constants[i] = own[i];
         }
     }
-    for (sample_point<prime_field>& state : states_) {
-        result.rows.append(state.combined_row(evaluator_, result.constants));
+    for (std::size_t state = 0; result.rows.rows() < rows_of_draw_; ++state) {
+        check_tries(state, result.rows.rows());
+        if (state == states_.size()) {
+            states_.emplace_back(W_, state + 1);
+        }
+        if (const auto row = states_[state].combined_row(evaluator_, result.constants)) {
+            result.rows.append(*row);
+        }
     }
     return result;
 }
@@ -279,9 +297,7 @@ regrouping::formula_table regrouping::formulas() {
     std::vector<link_relation> relations;
     for (std::size_t link = 0; link < tree_.joints.size(); ++link) {
         link_relation relation = relation_of(static_cast<int>(link));
-        while (states_.size() < relation.columns.size() + spare_rows) {
-            states_.emplace_back(W_, states_.size() + 1);
-        }
+        rows_of_draw_ = std::max(rows_of_draw_, relation.columns.size() + spare_rows);
         if (relation.columns.size() > relation.first_target) {
             relations.push_back(std::move(relation));
         }
@@ -350,6 +366,9 @@ std::vector<regrouped_column> regrouping::columns(const Eigen::MatrixXd& sampled
 }
 
 int regrouping::prove(const std::vector<regrouped_column>& columns) const {
+    if (W_.has_roots) {
+        return static_cast<int>(own_.dropped.size());
+    }
     std::vector<std::size_t> exact = own_.dropped;
     for (const regrouped_column& column : columns) {
         if (!column.is_exact) {
@@ -359,7 +378,7 @@ int regrouping::prove(const std::vector<regrouped_column>& columns) const {
     graph_evaluator<rational> evaluator(W_.graph, [](const rational& value) { return value; });
     for (int s = 0; s < points_; ++s) {
         sample_point<rational> point(W_, static_cast<std::uint64_t>(s) + 1);
-        std::vector<rational> row = point.combined_row(evaluator, own_constants_);
+        std::vector<rational> row = *point.combined_row(evaluator, own_constants_);
         for (const regrouped_column& column : columns) {
             row[column.dropped] = row[column.dropped] - column.exact * row[column.kept];
         }

@@ -45,7 +45,7 @@ class regrouping {
     /// Inserts the coefficients into the combined row of every rational point, in CLN rationals. Throws
     /// rank_disagreement where a dropped column is not this combination of the kept ones. Returns the number of dropped
     /// columns left out because a coefficient is no exact number: for these the elimination modulo a prime is the
-    /// evidence.
+    /// evidence, as for all of a robot with loops, at whose states roots stand that are not rational.
     int prove(const std::vector<regrouped_column>& columns) const;
 
   private:
@@ -92,6 +92,7 @@ class regrouping {
     const standard_parameters& parameters_;
     graph_evaluator<prime_field> evaluator_;
     std::vector<sample_point<prime_field>> states_;  ///< for eliminations within one link
+    std::size_t rows_of_draw_ = 0;
     int points_ = 0;
     std::vector<rational> own_constants_;
     exact_selection own_;

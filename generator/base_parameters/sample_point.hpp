@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <cstdlib>
 #include <map>
+#include <optional>
 #include <random>
+#include <stdexcept>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -18,7 +20,8 @@ namespace idim::generator {
 /// A random state of the robot in exact numbers, where the standard regressor is evaluated over a field T (rationals,
 /// or integers modulo a prime). Cosine and sine of an angle lie on the unit circle exactly: ((1-t^2)/(1+t^2),
 /// 2t/(1+t^2)) with t rational. Signs are +1 or -1, abs(x) = sign(x) x; other functions are not rational and stand for
-/// values of their own. The same seed gives the same state for every T.
+/// values of their own, but for the roots of closed loops: these are found modulo a prime, where they exist. The same
+/// seed gives the same state for every T.
 template <class T>
 class sample_point {
   public:
@@ -28,23 +31,27 @@ class sample_point {
         }
     }
 
-    /// The regressor's row at random virtual velocities. `evaluator`: of its graph; `constants`: of the robot.
-    std::vector<T> combined_row(graph_evaluator<T>& evaluator, const std::vector<T>& constants) {
-        return evaluator.evaluate(with(constants), *this);
+    /// The regressor's row at random virtual velocities. `evaluator`: of its graph; `constants`: of the robot. Nothing
+    /// where a loop does not close.
+    std::optional<std::vector<T>> combined_row(graph_evaluator<T>& evaluator, const std::vector<T>& constants) {
+        closes_ = true;
+        std::vector<T> row = evaluator.evaluate(with(constants), *this);
+        return closes_ ? std::optional(std::move(row)) : std::nullopt;
     }
 
-    /// All rows of W_st.
+    /// All rows of W_st; none where a loop does not close.
     std::vector<std::vector<T>> rows(graph_evaluator<T>& evaluator, const std::vector<T>& constants) {
         std::vector<T> symbols = with(constants);
         const auto first = symbols.begin() + static_cast<std::ptrdiff_t>(W_.first_virtual());
         std::fill(first, symbols.end(), T());
         std::vector<std::vector<T>> rows;
+        closes_ = true;
         for (auto v = first; v != symbols.end(); ++v) {
             *v = integer(1);
             rows.push_back(evaluator.evaluate(symbols, *this));
             *v = T();
         }
-        return rows;
+        return closes_ ? rows : std::vector<std::vector<T>>();
     }
 
     T function(function_kind kind, signed_node argument, const T& x, const T&) {
@@ -58,6 +65,8 @@ class sample_point {
                 return sign(node);
             case function_kind::abs:
                 return sign(node) * x;
+            case function_kind::sqrt:
+                return W_.is_root(node) ? root(x) : own_value(kind, node);
             default:
                 return own_value(kind, node);
         }
@@ -131,6 +140,17 @@ class sample_point {
         return free_circles_.emplace(node, std::pair((integer(1) - t * t) / norm, integer(2) * t / norm)).first->second;
     }
 
+    /// Where there is none, any value: the evaluation is void.
+    T root(const T& x) {
+        if constexpr (std::is_same_v<T, prime_field>) {
+            const std::optional<T> found = x.root();
+            closes_ = closes_ && found && !x.is_zero();
+            return closes_ ? *found : integer(1);
+        } else {
+            throw std::logic_error("loops have no exact states in rational numbers");
+        }
+    }
+
     T sign(int node) { return signs_.try_emplace(node, integer(random_() % 2 == 0 ? 1 : -1)).first->second; }
 
     T own_value(function_kind kind, int node) {
@@ -144,6 +164,7 @@ class sample_point {
     std::map<int, circle_point> circles_, free_circles_;
     std::map<int, T> signs_;
     std::map<std::pair<function_kind, int>, T> others_;
+    bool closes_ = true;
 };
 
 }  // namespace idim::generator

@@ -13,6 +13,13 @@ struct standard_regressor {
     angle_relations angles;
     std::size_t dof = 0;
     std::size_t columns = 0;
+    /// Closed loops bring roots of what positions make: a state may be where one does not close, and then has no value.
+    bool has_roots = false;
+
+    /// Whether the square root of a node is one of these.
+    bool is_root(int node) const {
+        return has_roots && graph.nodes()[static_cast<std::size_t>(node)].role <= symbol_role::position;
+    }
 
     /// Place of v in the graph's symbols; all symbols before it are constants and signals.
     std::size_t first_virtual() const { return graph.symbols().size() - dof; }

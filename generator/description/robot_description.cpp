@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "description/identifier.hpp"
+#include "description/loop_reader.hpp"
 #include "description/urdf_robot.hpp"
 #include "description/yaml_reader.hpp"
 
@@ -567,8 +568,8 @@ robot_description bare_urdf(const std::string& file) {
 
 robot_description read_yaml_robot(const std::string& file) {
     const yaml_value root = read_yaml(file);
-    const yaml_fields fields(root,
-                             {"name", "gravity", "constants", "joints", "effects", "control", "parameters", "urdf"});
+    const yaml_fields fields(
+        root, {"name", "gravity", "constants", "joints", "loops", "effects", "control", "parameters", "urdf"});
     robot_description robot;
     const auto urdf_file = fields.find("urdf");
     const auto name = urdf_file ? fields.find("name") : fields.require("name", "the name of the robot");
@@ -583,6 +584,9 @@ robot_description read_yaml_robot(const std::string& file) {
         robot.name = name ? robot.name : urdf->name;
     } else {
         ordered = read_joints(fields.require("joints", "a list of joints"));
+    }
+    if (const auto loops = fields.find("loops")) {
+        robot.loops = read_loops(*loops, ordered.joints);
     }
     robot.joints = ordered.joints;
     robot.effects = read_effects(fields, robot.joints);
@@ -601,7 +605,7 @@ bool is_header(const control_description& control) {
 }
 
 bool has_own_coordinate(const joint_description& joint) {
-    if (joint.type == joint_type::fixed) {
+    if (joint.type == joint_type::fixed || joint.passive) {
         return false;
     }
     const std::string& text = joint.type == joint_type::revolute ? joint.theta.text : joint.r.text;
@@ -643,6 +647,10 @@ std::string to_string(const robot_description& robot) {
     text += "joints:\n";
     for (const joint_description& joint : robot.joints) {
         text += joint_text(joint, robot.joints);
+    }
+    text += robot.loops.empty() ? "" : "loops:\n";
+    for (const loop_description& loop : robot.loops) {
+        text += "  - " + to_string(loop, robot.joints) + "\n";
     }
     text += robot.effects.empty() ? "" : "effects:\n";
     for (const effect_use& use : robot.effects) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -35,6 +36,7 @@ struct joint_description {
     int antecedent = -1;  ///< index in robot_description::joints, always smaller than the joint's own; -1 is the base
     expression_text gamma, b, alpha, d, theta, r;
     bool massless = false;  ///< its link has no inertia: no inertial parameters
+    bool passive = false;   ///< a loop determines its variable, which is written `q`
     joint_limits limits;
     std::optional<double> drive_gain;  ///< [N*m or N] per unit of v
     input_location where;
@@ -44,6 +46,27 @@ struct joint_description {
 struct constant_description {
     std::string name;
     expression_text value;
+};
+
+/// A point fixed to a link, in the frame of its joint [m].
+struct link_point {
+    int link = -1;  ///< index in robot_description::joints; -1 is the base
+    std::array<expression_text, 3> point;
+};
+
+/// The two ways in which a triangle closes over its base, or a parallelogram, which keeps its form past the position
+/// where all its sides lie in one line.
+enum class loop_assembly { clockwise = -1, parallelogram = 0, counterclockwise = 1 };
+
+/// A closed loop of links that move in a plane, cut open at a revolute joint: the tree of `joints` with the two points
+/// of the cut at one place. It determines the two passive joints, with which the cut joint forms a triangle (Khalil and
+/// Dombre 2002, ch. 7).
+struct loop_description {
+    std::array<link_point, 2> cut;
+    std::array<int, 2> passive = {-1, -1};  ///< indices of joints
+    /// The sense of the corners first passive joint, second one, cut, seen against the axis of the first.
+    loop_assembly assembly = loop_assembly::counterclockwise;
+    input_location where, cut_where, passive_where, assembly_where;
 };
 
 /// An effect as a robot uses it.
@@ -75,6 +98,7 @@ struct robot_description {
     std::vector<expression_text> gravity;  ///< three entries [m/s^2], base frame
     std::vector<constant_description> constants;
     std::vector<joint_description> joints;
+    std::vector<loop_description> loops;
     std::vector<effect_use> effects;
     std::optional<control_description> control;
     std::map<std::string, double> parameters;  ///< a-priori standard parameters
@@ -89,7 +113,8 @@ struct robot_description {
 /// one line naming file, line, field and what was expected.
 robot_description read_robot(const std::string& file);
 
-/// Whether the joint's variable names its own coordinate `q`: otherwise it is fixed or moves with other joints.
+/// Whether the joint's variable names its own coordinate `q`: otherwise it is fixed or moves with other joints, as a
+/// passive one does whose `q` a loop determines.
 bool has_own_coordinate(const joint_description& joint);
 
 /// Behind the name of every parameter of this joint and its link: the number of its coordinate from 1, or else _<name>.

@@ -39,6 +39,10 @@ symbolic_model first_states_model(const kinematic_tree& tree, const standard_par
 symbolic_model next_states_model(const kinematic_tree& tree, const standard_parameters& parameters,
                                  const parameter_selection& selection, const model_form& form);
 
+/// How well the loops close: kinematic_tree::closures [loops], output array "closed". Written the same in every form.
+symbolic_model closure_model(const kinematic_tree& tree, const standard_parameters& parameters,
+                             const parameter_selection& selection, const model_form& form);
+
 /// N [n]: the torque at qdd = 0. Output array "N".
 symbolic_model bias_model(const kinematic_tree& tree, const standard_parameters& parameters,
                           const parameter_selection& selection, const model_form& form);

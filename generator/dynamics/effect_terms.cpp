@@ -106,13 +106,14 @@ class expression_reader {
             for (const joint_rate& rate : acts_on(joint)) {
                 const auto i = static_cast<std::size_t>(rate.coordinate);
                 const drive_model& drive = parameters_.drives[i];
-                value += rate.factor * (drive.is_elastic() ? drive.motor[derivative] : symbols[i]);
+                const bool of_motor = drive.is_elastic() && !joint.passive;
+                value += rate.factor * (of_motor ? drive.motor[derivative] : symbols[i]);
             }
             return value;
         };
         names["q" + suffix] = joint.coordinate >= 0 ? sum(0, tree_.q) : joint.variable;
         names["qd" + suffix] = sum(1, tree_.qd);
-        names["qdd" + suffix] = sum(2, tree_.qdd);
+        names["qdd" + suffix] = sum(2, tree_.qdd) + joint.drift;
     }
 
     /// A shape without a value stands for itself: an error only where an expression needs it.

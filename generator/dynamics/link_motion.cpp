@@ -74,13 +74,20 @@ void declare_motion(symbolic_model& model, const kinematic_tree& tree, const mot
     if (inputs.acceleration) {
         declare(tree.qdd, symbol_role::acceleration);
     }
+    for (const kinematic_definition& definition : tree.from_positions) {
+        model.define(definition.symbol, definition.body);
+    }
+    for (std::size_t i = 0; i < tree.from_velocities.size() && inputs.velocity; ++i) {
+        model.define(tree.from_velocities[i].symbol, tree.from_velocities[i].body);
+    }
 }
 
 joint_rates rates_of(symbolic_model& model, const kinematic_tree& tree, std::size_t joint,
                      const motion_inputs& inputs) {
     const kinematic_joint& of = tree.joints[joint];
+    const ex driven = inputs.acceleration ? sum_of_rates(model, of, tree.qdd, "ddq") : ex(0);
     return {inputs.velocity ? sum_of_rates(model, of, tree.qd, "dq") : ex(0),
-            inputs.acceleration ? sum_of_rates(model, of, tree.qdd, "ddq") : ex(0)};
+            inputs.velocity && of.passive ? model.assign("ddq" + of.label + "_all", driven + of.drift) : driven};
 }
 
 motion_recursion::motion_recursion(symbolic_model& model, const kinematic_tree& tree, const link_axes& axes,

@@ -26,10 +26,12 @@ struct motion_inputs {
     bool gravity = true;
 };
 
-/// Declares q, qd, qdd of the driven joints as leaves, as far as `inputs` has them.
+/// Declares q, qd, qdd of the driven joints as leaves, as far as `inputs` has them, and defines what closed loops make
+/// of them.
 void declare_motion(symbolic_model& model, const kinematic_tree& tree, const motion_inputs& inputs);
 
-/// Velocity and acceleration of a joint from those of its coordinates [rad or m per s, per s^2].
+/// Velocity and acceleration of a joint from those of its coordinates [rad or m per s, per s^2]. Without accelerations
+/// a passive joint still has its drift.
 struct joint_rates {
     GiNaC::ex velocity = 0, acceleration = 0;
 };

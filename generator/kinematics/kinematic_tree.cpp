@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "graph/rational.hpp"
+#include "kinematics/planar_loop.hpp"
 
 namespace idim::generator {
 
@@ -21,19 +22,6 @@ int quarter_turns(const ex& angle) {
         return -1;
     }
     return GiNaC::mod(GiNaC::ex_to<GiNaC::numeric>(turns), 4).to_int();
-}
-
-angle_pair turned(const angle_pair& angle, int quarters) {
-    switch (quarters) {
-        case 1:
-            return {-angle.sin, angle.cos};
-        case 2:
-            return {-angle.cos, -angle.sin};
-        case 3:
-            return {angle.sin, -angle.cos};
-        default:
-            return angle;
-    }
 }
 
 std::string printed(const ex& e) {
@@ -71,6 +59,9 @@ class tree_reader {
         number_coordinates();
         for (const joint_description& joint : robot_.joints) {
             read_joint(joint);
+        }
+        for (const loop_description& loop : robot_.loops) {
+            read_loop(loop);
         }
         tree_.constant_names = names_;
         return std::move(tree_);
@@ -183,7 +174,9 @@ class tree_reader {
         joint.d = length(source.d);
         if (source.type == joint_type::revolute) {
             joint.r = length(source.r);
-            read_revolute(joint, source.theta);
+            if (!source.passive) {
+                read_revolute(joint, source.theta);
+            }
         } else if (source.type == joint_type::prismatic) {
             joint.theta = constant_angle(source.theta);
             read_prismatic(joint, source.r);
@@ -192,6 +185,7 @@ class tree_reader {
             joint.r = length(source.r);
         }
         joint.massless = source.massless;
+        joint.passive = source.passive;
         joint.label = joint.coordinate >= 0 ? std::to_string(joint.coordinate + 1) : "_" + joint.name;
         tree_.joints.push_back(joint);
     }
@@ -259,6 +253,27 @@ class tree_reader {
         joint.variable = joint.r;
     }
 
+    void read_loop(const loop_description& source) {
+        planar_loop loop;
+        for (std::size_t side = 0; side < 2; ++side) {
+            loop.cut[side].link = source.cut[side].link;
+            for (std::size_t i = 0; i < 3; ++i) {
+                loop.cut[side].point[i] = length(source.cut[side].point[i]);
+            }
+        }
+        loop.passive = source.passive;
+        loop.assembly = source.assembly;
+        loop.where = source.where;
+        loop.cut_where = source.cut_where;
+        loop.passive_where = source.passive_where;
+        loop.assembly_where = source.assembly_where;
+        for (const int joint : tree_.driven) {
+            const joint_description& driven = robot_.joints[static_cast<std::size_t>(joint)];
+            loop.ranges.push_back(driven.limits.position.value_or(std::pair(-3.2, 3.2)));
+        }
+        close_loop(loop, tree_);
+    }
+
     const robot_description& robot_;
     kinematic_tree tree_;
     named_values names_;
@@ -269,6 +284,19 @@ class tree_reader {
 };
 
 }  // namespace
+
+angle_pair turned(const angle_pair& angle, int quarters) {
+    switch (quarters) {
+        case 1:
+            return {-angle.sin, angle.cos};
+        case 2:
+            return {-angle.cos, -angle.sin};
+        case 3:
+            return {angle.sin, -angle.cos};
+        default:
+            return angle;
+    }
+}
 
 std::array<GiNaC::ex, 3> kinematic_joint::position() const {
     const ex y = -alpha.sin * r;

@@ -17,6 +17,9 @@ struct angle_pair {
     GiNaC::ex sin = 0;
 };
 
+/// The angle after further quarter turns, 0 to 3.
+angle_pair turned(const angle_pair& angle, int quarters);
+
 /// A symbol whose value is known: a named length, or the cosine or sine of a constant angle. Formulas print its text,
 /// code folds its value.
 struct kinematic_constant {
@@ -31,7 +34,13 @@ struct kinematic_constant {
 /// Velocity of a joint per unit velocity of a coordinate.
 struct joint_rate {
     int coordinate = 0;
-    GiNaC::ex factor = 1;  ///< without coordinates
+    GiNaC::ex factor = 1;  ///< without coordinates, or a symbol of kinematic_tree::from_positions
+};
+
+/// A symbol that stands for `body`, made of coordinates, constants and symbols defined before.
+struct kinematic_definition {
+    GiNaC::symbol symbol;
+    GiNaC::ex body;
 };
 
 /// One joint with its transform; the frame of the link in that of its antecedent is
@@ -49,6 +58,8 @@ struct kinematic_joint {
     GiNaC::ex b = 0, d = 0, r = 0;
     std::vector<joint_rate> rates;  ///< of theta or r, by ascending coordinate; empty if fixed
     GiNaC::ex variable = 0;         ///< theta or r of a joint that moves
+    bool passive = false;           ///< a loop determines its variable
+    GiNaC::ex drift = 0;            ///< passive: acceleration while no coordinate accelerates
 
     /// Origin of the link frame in the frame of the antecedent [m].
     std::array<GiNaC::ex, 3> position() const;
@@ -63,6 +74,12 @@ struct kinematic_tree {
     std::vector<kinematic_constant> constants;
     named_values constant_names;  ///< what an effect's expression may name
     std::array<GiNaC::ex, 3> gravity = {0, 0, 0};
+    /// What closed loops make of the coordinates: sines, cosines and rates of passive joints, and from velocities too
+    /// their drifts. Models define these symbols before they use them.
+    std::vector<kinematic_definition> from_positions, from_velocities;
+    /// Of each loop that is no parallelogram the squared sine of the angle between the sides that meet at the cut: the
+    /// loop closes where it is positive.
+    std::vector<GiNaC::ex> closures;
 
     int dof() const { return static_cast<int>(driven.size()); }
     /// Joints from `joint` to the base, `joint` first.
@@ -71,7 +88,7 @@ struct kinematic_tree {
 
 /// Reads the expressions of a description. Throws input_error where theta of a revolute or r of a prismatic joint is
 /// not a linear function of q and the q_<joint> of joints that have a coordinate, or where another entry depends on
-/// these.
+/// these, and for loops that do not close (see close_loop).
 kinematic_tree build_kinematic_tree(const robot_description& robot);
 
 }  // namespace idim::generator

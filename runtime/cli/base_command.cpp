@@ -48,11 +48,11 @@ void print(const generator::base_report& base) {
         }
         fmt::print("\n");
     }
-    fmt::print(
-        "rank {} by QR (smallest kept pivot {:.1e}, largest dropped {:.1e}), {} in exact arithmetic at {} rational "
-        "points\n",
-        base.qr_rank, base.smallest_kept_pivot, base.largest_dropped_pivot, base.exact_rank, base.exact_points);
-    if (base.modulo_prime_only > 0) {
+    fmt::print("rank {} by QR (smallest kept pivot {:.1e}, largest dropped {:.1e}), {} {} at {} {}\n", base.qr_rank,
+               base.smallest_kept_pivot, base.largest_dropped_pivot, base.exact_rank,
+               base.has_loops ? "modulo a prime" : "in exact arithmetic", base.exact_points,
+               base.has_loops ? "points where the loops close" : "rational points");
+    if (base.modulo_prime_only > 0 && !base.has_loops) {
         fmt::print(
             "  ({} columns have coefficients that are no short formula: printed as numbers, shown modulo a prime)\n",
             base.modulo_prime_only);

@@ -216,9 +216,10 @@ TEST(RobotDescription, JointNamesAreUnique) {
 }
 
 TEST(RobotDescription, AKeyThatIsUnknownOrWrittenTwiceIsRefused) {
-    EXPECT_EQ(error_of(two_joints("gravitation: [0, 0, 0]\n")),
-              "robot.yaml:5: unknown key \"gravitation\", expected one of name, gravity, constants, joints, effects, "
-              "control, parameters, urdf");
+    EXPECT_EQ(
+        error_of(two_joints("gravitation: [0, 0, 0]\n")),
+        "robot.yaml:5: unknown key \"gravitation\", expected one of name, gravity, constants, joints, loops, effects, "
+        "control, parameters, urdf");
     EXPECT_EQ(error_of(one_joint("theta: q, alfa: 0")),
               "robot.yaml:3: joints[1]: unknown key \"alfa\", expected one of name, type, antecedent, gamma, b, alpha, "
               "d, theta, r, massless, limits, drive_gain");
@@ -360,7 +361,7 @@ TEST(RobotDescription, FilesThatAreNoDescriptionAreRefused) {
     EXPECT_EQ(error_of(""), "robot.yaml: is empty");
     EXPECT_EQ(error_of("# only a comment\n"), "robot.yaml: is empty");
     EXPECT_EQ(error_of("- a\n- b\n"),
-              "robot.yaml:1: expected a map with keys among name, gravity, constants, joints, effects, control, "
+              "robot.yaml:1: expected a map with keys among name, gravity, constants, joints, loops, effects, control, "
               "parameters, urdf, got a list");
     EXPECT_EQ(error_of("name: arm\njoints: [{theta: q}\nx: 1\n"),
               "robot.yaml:3: not YAML: end of sequence flow not found");

@@ -94,7 +94,7 @@ rank_by_svd find_rank(Eigen::MatrixXd W) {
 }
 
 std::vector<std::string> serial_robots() {
-    std::vector<std::string> names = robot_names();
+    std::vector<std::string> names = open_robot_names();
     // Effects of its own take the place of the catalogue's there (robots/scara/README.md); counted below.
     names.erase(std::remove(names.begin(), names.end(), "scara"), names.end());
     return names;

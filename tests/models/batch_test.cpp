@@ -77,7 +77,7 @@ class Batch : public testing::TestWithParam<std::string> {
 };
 
 std::vector<std::string> robots_and_effects() {
-    std::vector<std::string> names = robot_names();
+    std::vector<std::string> names = open_robot_names();  // loops do not close at every state
     names.emplace_back("effects_arm");
     return names;
 }

@@ -17,7 +17,7 @@ namespace {
 
 struct bad_robot {
     const char* name;     ///< of the test
-    const char* text;     ///< of the description
+    std::string text;     ///< of the description
     const char* message;  ///< behind the file name
 };
 
@@ -26,6 +26,14 @@ std::ostream& operator<<(std::ostream& stream, const bad_robot& robot) {
 }
 
 class BadRobot : public testing::TestWithParam<bad_robot> {};
+
+/// A five-bar but for its loop, which starts on line 8.
+const std::string bars =
+    "name: a\njoints:\n  - {name: j1, theta: q}\n  - {name: j2, antecedent: base, d: 0.2, theta: q}\n"
+    "  - {name: j3, antecedent: j1, d: 0.1, theta: q}\n  - {name: j4, antecedent: j2, d: 0.1, theta: q}\nloops:\n";
+const std::string cut = "  - cut: [{link: j3, point: [0.3, 0, 0]}, {link: j4, point: [0.3, 0, 0]}]\n";
+const std::string passive = "    passive: [j3, j4]\n";
+const std::string assembly = "    assembly: 1\n";
 
 const bad_robot bad_robots[] = {
     {"UnknownJointType", "name: a\njoints:\n  - {name: j1, type: spherical, theta: q}\n",
@@ -58,6 +66,52 @@ const bad_robot bad_robots[] = {
     {"UnknownKey", "name: a\ngravitation: 9.81\njoints:\n  - {name: j1, theta: q}\n",
      ":2: unknown key \"gravitation\""},
     {"NoYaml", "name: [a\n", ":"},
+    {"LoopThatClosesNowhere",
+     bars + "  - cut: [{link: j3, point: [0.9, 0, 0]}, {link: j4, point: [0.3, 0, 0]}]\n" + passive + assembly,
+     ":8: loops[1]: the loop closes at none of 2000 positions"},
+    {"LoopWithPointsInTwoPlanes",
+     bars + "  - cut: [{link: j3, point: [0.3, 0, 0.01]}, {link: j4, point: [0.3, 0, 0]}]\n" + passive + assembly,
+     ":8: loops[1].cut: the two points of the cut are 0.01 m apart along the axis of joint j3"},
+    {"LoopWithAxesThatAreNotParallel",
+     "name: a\njoints:\n  - {name: j1, theta: q}\n  - {name: j2, antecedent: base, alpha: 0.1, theta: q}\n"
+     "  - {name: j3, antecedent: j1, d: 0.1, theta: q}\nloops:\n"
+     "  - {cut: [{link: j3, point: [0.3, 0, 0]}, {link: j2, point: [0.3, 0, 0]}], passive: [j3, j2], assembly: 1}\n",
+     ":7: loops[1]: the axis of joint j2 is not parallel to that of j3"},
+    {"LoopWithoutItsPassiveJoint",
+     bars + "  - cut: [{link: j3, point: [0.3, 0, 0]}, {link: j2, point: [0.3, 0, 0]}]\n" + passive + assembly,
+     ":9: loops[1].passive: joint j4 is not in the loop"},
+    {"LoopThatIsCutWithinALink",
+     bars + "  - cut: [{link: j3, point: [0.3, 0, 0]}, {link: j3, point: [0.3, 0, 0]}]\n" + passive + assembly,
+     ":8: loops[1].cut: both points lie on one link"},
+    {"LoopOfAnUnknownLink",
+     bars + "  - cut: [{link: j3, point: [0.3, 0, 0]}, {link: j9, point: [0.3, 0, 0]}]\n" + passive + assembly,
+     ":8: loops[1].cut[2].link: expected the name of a joint of this robot, or base, got \"j9\""},
+    {"JointThatTwoLoopsDetermine", bars + cut + passive + assembly + cut + passive + assembly,
+     ":12: loops[2].passive[1]: joint \"j3\" is passive twice"},
+    {"PassiveJointThatTurnsByItsOwnRatio",
+     "name: a\njoints:\n  - {name: j1, theta: q}\n  - {name: j2, antecedent: base, d: 0.2, theta: 2*q}\n"
+     "  - {name: j3, antecedent: j1, d: 0.1, theta: q}\nloops:\n"
+     "  - {cut: [{link: j3, point: [0.3, 0, 0]}, {link: j2, point: [0.3, 0, 0]}], passive: [j3, j2], assembly: 1}\n",
+     ":4: joints[2].theta: \"2*q\" given, expected \"q\""},
+    {"LoopWithoutAnActiveJoint",
+     "name: a\njoints:\n  - {name: j1, theta: q}\n  - {name: j2, antecedent: base, d: 0.2, theta: q}\n"
+     "  - {name: j5, theta: q, antecedent: base}\nloops:\n"
+     "  - {cut: [{link: j1, point: [0.3, 0, 0]}, {link: j2, point: [0.3, 0, 0]}], passive: [j1, j2], assembly: 1}\n",
+     ":7: loops[1]: no coordinate moves the loop"},
+    {"ParallelogramWithSidesThatDiffer", bars + cut + passive + "    assembly: parallelogram\n",
+     ":10: loops[1].assembly: opposite sides of the loop are not equal bars"},
+    {"ParallelogramThatIsNotCalledOne",
+     "name: a\njoints:\n  - {name: j1, theta: q}\n  - {name: j2, antecedent: base, d: 0.2, theta: q}\n"
+     "  - {name: j3, antecedent: j1, d: 0.1, theta: q}\nloops:\n"
+     "  - {cut: [{link: j3, point: [0.2, 0, 0]}, {link: j2, point: [0.1, 0, 0]}], passive: [j3, j2], assembly: 1}\n",
+     ":7: loops[1].assembly: opposite sides of the loop are equal, expected parallelogram"},
+    {"LoopThatNeedsTheAngleOfAnother",
+     "name: a\njoints:\n  - {name: j1, theta: q}\n  - {name: j2, antecedent: base, d: 0.2, theta: q}\n"
+     "  - {name: j3, antecedent: j1, d: 0.1, theta: q}\n  - {name: j4, antecedent: j2, d: 0.1, theta: q}\n"
+     "  - {name: j5, antecedent: j3, d: 0.1, theta: q}\n  - {name: j6, antecedent: base, d: 0.3, theta: q}\nloops:\n"
+     "  - {cut: [{link: j3, point: [0.3, 0, 0]}, {link: j4, point: [0.3, 0, 0]}], passive: [j3, j4], assembly: 1}\n"
+     "  - {cut: [{link: j5, point: [0.3, 0, 0]}, {link: j6, point: [0.3, 0, 0]}], passive: [j5, j6], assembly: 1}\n",
+     ":11: loops[2]: joint j3 is moved by another loop"},
 };
 
 void expect_one_line(const std::string& text) {

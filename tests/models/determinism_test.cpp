@@ -58,7 +58,7 @@ TEST_P(Determinism, FreshProcessesWriteTheSameBytes) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Robots, Determinism, testing::Values("denso_vp6242g", "scara"));
+INSTANTIATE_TEST_SUITE_P(Robots, Determinism, testing::Values("denso_vp6242g", "scara", "five_bar"));
 
 TEST_P(GeneratedFolder, IsWhatTheGeneratorWritesNow) {
     const std::string folder = source_folder + "/generated/" + GetParam();

@@ -1,5 +1,5 @@
-// Properties of the generated models, for every robot of robots/. Other formulas and other code give the expected
-// values: Orocos KDL for the rigid links, closed forms for the effects.
+// Properties of the generated models, for every robot of robots/ without closed loops. Other formulas and other code
+// give the expected values: Orocos KDL for the rigid links, closed forms for the effects.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -254,7 +254,7 @@ TEST_P(ModelOf, SinglePrecisionAgreesToItsRounding) {
     });
 }
 
-INSTANTIATE_TEST_SUITE_P(AllRobots, ModelOf, testing::ValuesIn(robot_names()),
+INSTANTIATE_TEST_SUITE_P(AllRobots, ModelOf, testing::ValuesIn(open_robot_names()),
                          [](const testing::TestParamInfo<std::string>& robot) { return robot.param; });
 
 }  // namespace idim::test

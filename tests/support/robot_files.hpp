@@ -48,6 +48,17 @@ inline std::vector<std::string> robot_names() {
     return folders_in("robots");
 }
 
+/// Those without closed loops.
+inline std::vector<std::string> open_robot_names() {
+    std::vector<std::string> names = robot_names();
+    names.erase(std::remove_if(names.begin(), names.end(),
+                               [](const std::string& robot) {
+                                   return read_text(robot_file(robot)).find("\nloops:") != std::string::npos;
+                               }),
+                names.end());
+    return names;
+}
+
 /// `text` with the one place where `from` stands changed.
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
     const std::size_t at = text.find(from);
