@@ -19,7 +19,9 @@ struct linear_bound {
     std::string name;
     std::string unit;
     double min = -std::numeric_limits<double>::infinity();
-    double negligible = 0.0;  ///< a smaller value is none of the robot's
+    double max = std::numeric_limits<double>::infinity();
+    double negligible = 0.0;   ///< a smaller value is none of the robot's
+    bool is_nuisance = false;  ///< fitted, but no coefficient of the effect
 };
 
 /// A coefficient that enters nonlinearly and is searched in [low, high].
@@ -48,7 +50,9 @@ class effect_candidate {
     std::vector<linear_bound> linear;  ///< m of them
     std::vector<shape_bound> shape;
     column_role role = column_role::linear;
-    bool per_log = false;  ///< linear coefficients are refitted for each log
+    bool is_of_the_robot = false;  ///< at no joint in particular: `joints` are all of them
+    std::string when_permanent;    ///< why it cannot be seen if it lasts for the whole of every log; empty if it can
+    bool per_log = false;          ///< linear coefficients are refitted for each log
     /// A direction of the scaled columns whose norm outside the model's span is below this counts as within it: a drive
     /// gain shows only in 1e-4 of its column, rounding and filter ends in 1e-7.
     double least_outside = 1e-5;

@@ -75,30 +75,6 @@ double tail_of_f(double f, double m, double freedom) {
     return boost::math::cdf(boost::math::complement(distribution, f));
 }
 
-/// Weighted squared residual of the candidate's joints over the fitted logs, rows of them and rows that count.
-struct touched_rows {
-    double squared = 0.0;
-    double rows = 0.0;
-    double effective = 0.0;
-};
-
-touched_rows sum_touched(const trace_fit& fit, const std::vector<int>& touched, const log_series& residual) {
-    touched_rows sums;
-    for (const int j : touched) {
-        double rows = 0.0;
-        for (std::size_t l = 0; l < fit.logs().size(); ++l) {
-            if (!fit.logs()[l].held_back) {
-                const auto joint = static_cast<std::size_t>(j);
-                sums.squared += residual[l][joint].cwiseProduct(fit.weight()[l][joint]).squaredNorm();
-                rows += static_cast<double>(residual[l][joint].size());
-            }
-        }
-        sums.rows += rows;
-        sums.effective += rows / correlation_length(fit, residual, j);
-    }
-    return sums;
-}
-
 double share_of_parameters(const trace_fit& fit, double rows) {
     double all = 0.0;
     for (std::size_t l = 0; l < fit.logs().size(); ++l) {
@@ -112,7 +88,7 @@ double share_of_parameters(const trace_fit& fit, double rows) {
 bool within_bounds(const effect_candidate& candidate, const Eigen::VectorXd& coefficient) {
     for (Eigen::Index c = 0; c < coefficient.size(); ++c) {
         const std::size_t which = static_cast<std::size_t>(c) % candidate.linear.size();
-        if (coefficient[c] < candidate.linear[which].min) {
+        if (coefficient[c] < candidate.linear[which].min || coefficient[c] > candidate.linear[which].max) {
             return false;
         }
     }
@@ -120,6 +96,34 @@ bool within_bounds(const effect_candidate& candidate, const Eigen::VectorXd& coe
 }
 
 }  // namespace
+
+row_count count_rows(const trace_fit& fit, const std::vector<int>& touched, const log_series& residual) {
+    row_count sums;
+    for (const int j : touched) {
+        double rows = 0.0;
+        for (std::size_t l = 0; l < fit.logs().size(); ++l) {
+            if (!fit.logs()[l].held_back) {
+                const auto joint = static_cast<std::size_t>(j);
+                sums.squared += residual[l][joint].cwiseProduct(fit.weight()[l][joint]).squaredNorm();
+                rows += static_cast<double>(residual[l][joint].size());
+            }
+        }
+        sums.rows += rows;
+        sums.effective += rows / correlation_length(fit, residual, j);
+    }
+    sums.parameters = share_of_parameters(fit, sums.rows);
+    return sums;
+}
+
+f_test partial_f(const row_count& rows, double gain, double m) {
+    f_test test;
+    const double length = rows.length();
+    test.freedom = std::max(1.0, rows.effective - rows.parameters / length - m);
+    const double variance = rows.squared / std::max(1.0, rows.rows - rows.parameters);
+    test.statistic = gain / (m * length * std::max(variance, 1e-300));
+    test.p_value = tail_of_f(test.statistic, m, test.freedom);
+    return test;
+}
 
 double effect_evidence::z_all() const {
     double sum = 0.0;
@@ -189,14 +193,13 @@ effect_evidence test_on_fitted(const trace_fit& fit, const effect_term& term, bo
             left[l][joint] -= added.cwiseQuotient(fit.weight()[l][joint]);
         }
     }
-    const touched_rows after = sum_touched(fit, candidate.touched, left);
-    evidence.correlation_length = after.effective > 0.0 ? after.rows / after.effective : 1.0;
-    const auto m = static_cast<double>(columns.rank + static_cast<int>(candidate.shape.size()));
-    const double used = share_of_parameters(fit, after.rows) / evidence.correlation_length;
-    evidence.freedom = std::max(1.0, after.effective - used - m);
-    const double variance = after.squared / std::max(1.0, after.rows - share_of_parameters(fit, after.rows));
-    evidence.f_statistic = columns.gain / (m * evidence.correlation_length * std::max(variance, 1e-300));
-    evidence.p_value = tail_of_f(evidence.f_statistic, m, evidence.freedom);
+    const row_count after = count_rows(fit, candidate.touched, left);
+    const f_test test =
+        partial_f(after, columns.gain, static_cast<double>(columns.rank + static_cast<int>(candidate.shape.size())));
+    evidence.correlation_length = after.length();
+    evidence.freedom = test.freedom;
+    evidence.f_statistic = test.statistic;
+    evidence.p_value = test.p_value;
     return evidence;
 }
 

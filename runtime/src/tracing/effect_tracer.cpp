@@ -45,7 +45,8 @@ bool is_plausible(const trace_fit& fit, const effect_evidence& evidence) {
 bool is_negligible(const effect_evidence& evidence) {
     const std::vector<linear_bound>& linear = evidence.term.candidate->linear;
     for (std::size_t c = 0; c < linear.size(); ++c) {
-        if (std::abs(evidence.coefficient[static_cast<Eigen::Index>(c)]) >= linear[c].negligible) {
+        if (!linear[c].is_nuisance &&
+            std::abs(evidence.coefficient[static_cast<Eigen::Index>(c)]) >= linear[c].negligible) {
             return false;
         }
     }
@@ -134,6 +135,37 @@ Eigen::VectorXd prediction_of(const trace_fit& fit, const log_series& left) {
     return Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
+double weighted_norm(const trace_fit& fit, Eigen::Index column) {
+    double sum = 0.0;
+    for (std::size_t l = 0; l < fit.logs().size(); ++l) {
+        for (std::size_t j = 0; j < fit.weight()[l].size() && !fit.logs()[l].held_back; ++j) {
+            sum += fit.columns(l, static_cast<int>(j)).col(column).cwiseProduct(fit.weight()[l][j]).squaredNorm();
+        }
+    }
+    return std::sqrt(sum);
+}
+
+/// Columns of the fit whose combination the candidate's columns are: those that bring more than a hundredth of it.
+std::vector<Eigen::Index> absorbing_columns(const trace_fit& fit, const effect_evidence& evidence) {
+    constexpr double least_share = 0.01;
+    const projected_columns columns = fit.project(*evidence.term.candidate, evidence.term.shape, false);
+    Eigen::VectorXd share = Eigen::VectorXd::Zero(fit.all_coefficients().size());
+    for (Eigen::Index c = 0; c < columns.on_basis.cols(); ++c) {
+        if (columns.scale[c] > 0.0) {
+            share += fit.basis_times(columns.on_basis.col(c)).cwiseAbs() / columns.scale[c];
+        }
+    }
+    std::vector<Eigen::Index> found;
+    for (Eigen::Index k = 0; k < share.size(); ++k) {
+        share[k] *= weighted_norm(fit, k);
+        if (share[k] > least_share) {
+            found.push_back(k);
+        }
+    }
+    std::sort(found.begin(), found.end(), [&](Eigen::Index a, Eigen::Index b) { return share[a] > share[b]; });
+    return found;
+}
+
 trace_fit without(const trace_fit& fit, std::size_t term) {
     std::vector<effect_term> terms = fit.terms();
     terms.erase(terms.begin() + static_cast<std::ptrdiff_t>(term));
@@ -163,7 +195,8 @@ effect_survey survey(const trace_fit& fit, const std::vector<candidate_pointer>&
     });
     for (const tried_candidate& tried : result.candidates) {
         if (tried.evidence.within_span) {
-            result.within_span.push_back(place_of(*tried.evidence.term.candidate));
+            result.within_span.push_back(
+                {place_of(*tried.evidence.term.candidate), absorbing_columns(fit, tried.evidence)});
         }
     }
     std::stable_sort(result.candidates.begin(), result.candidates.end(), ranks_before);

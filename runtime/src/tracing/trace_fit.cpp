@@ -245,4 +245,28 @@ trace_fit fit_with_own_noise(const std::vector<traced_log>& logs, const std::vec
     return trace_fit(logs, terms, noise);
 }
 
+error_summary errors_of(const trace_fit& fit, bool held_back) {
+    error_summary summary;
+    double all_left = 0.0;
+    double all_torque = 0.0;
+    for (std::size_t j = 0; j < fit.residual().front().size(); ++j) {
+        double left = 0.0;
+        double torque = 0.0;
+        double rows = 0.0;
+        for (std::size_t l = 0; l < fit.logs().size(); ++l) {
+            if (fit.logs()[l].held_back == held_back) {
+                left += fit.residual()[l][j].squaredNorm();
+                torque += fit.logs()[l].rows.Y[j].squaredNorm();
+                rows += static_cast<double>(fit.residual()[l][j].size());
+            }
+        }
+        summary.joints.push_back(
+            {rows > 0.0 ? std::sqrt(left / rows) : 0.0, torque > 0.0 ? std::sqrt(left / torque) : 0.0});
+        all_left += left;
+        all_torque += torque;
+    }
+    summary.relative_error = all_torque > 0.0 ? std::sqrt(all_left / all_torque) : 0.0;
+    return summary;
+}
+
 }  // namespace idim

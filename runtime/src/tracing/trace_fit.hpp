@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "effect_candidate.hpp"
+#include "idim/estimate.hpp"
 #include "traced_log.hpp"
 
 namespace idim {
@@ -100,5 +101,8 @@ class trace_fit {
 /// Fits again until the deviations of the rows settle.
 trace_fit fit_with_own_noise(const std::vector<traced_log>& logs, const std::vector<effect_term>& terms,
                              const row_noise* start = nullptr);
+
+/// Errors over the logs that were fitted, or over those held back.
+error_summary errors_of(const trace_fit& fit, bool held_back);
 
 }  // namespace idim
