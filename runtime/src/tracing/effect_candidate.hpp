@@ -19,8 +19,8 @@ struct linear_bound {
     std::string name;
     std::string unit;
     double min = -std::numeric_limits<double>::infinity();
+    double negligible = 0.0;  ///< a smaller value is none of the robot's
     double max = std::numeric_limits<double>::infinity();
-    double negligible = 0.0;   ///< a smaller value is none of the robot's
     bool is_nuisance = false;  ///< fitted, but no coefficient of the effect
 };
 
@@ -63,6 +63,14 @@ class effect_candidate {
     /// The same without the low-pass, from the signals at the rows' own times: good enough to search a shape.
     virtual Eigen::MatrixXd quick_rows(const traced_log& log, int joint, const Eigen::VectorXd& at) const {
         return rows(log, joint, at);
+    }
+    /// Those of all joints it touches, in their order.
+    virtual std::vector<Eigen::MatrixXd> touched_rows(const traced_log& log, const Eigen::VectorXd& at) const {
+        std::vector<Eigen::MatrixXd> all;
+        for (const int joint : touched) {
+            all.push_back(rows(log, joint, at));
+        }
+        return all;
     }
     /// Value and deviation that the description declares, from those of a coefficient.
     virtual std::pair<double, double> declared(double coefficient, double deviation) const {

@@ -85,6 +85,20 @@ double share_of_parameters(const trace_fit& fit, double rows) {
     return fit.parameters() * rows / all;
 }
 
+/// Share of the weighted squared residual of one joint that is gone from the logs held back.
+double explained_at(const trace_fit& fit, const log_series& left, int joint) {
+    const auto j = static_cast<std::size_t>(joint);
+    double before = 0.0;
+    double after = 0.0;
+    for (std::size_t l = 0; l < fit.logs().size(); ++l) {
+        if (fit.logs()[l].held_back) {
+            before += fit.residual()[l][j].cwiseProduct(fit.weight()[l][j]).squaredNorm();
+            after += left[l][j].cwiseProduct(fit.weight()[l][j]).squaredNorm();
+        }
+    }
+    return before > 0.0 ? 1.0 - after / before : 0.0;
+}
+
 bool within_bounds(const effect_candidate& candidate, const Eigen::VectorXd& coefficient) {
     for (Eigen::Index c = 0; c < coefficient.size(); ++c) {
         const std::size_t which = static_cast<std::size_t>(c) % candidate.linear.size();
@@ -206,11 +220,9 @@ effect_evidence test_on_fitted(const trace_fit& fit, const effect_term& term, bo
 log_series residual_with(const trace_fit& fit, const effect_evidence& evidence) {
     const effect_candidate& candidate = *evidence.term.candidate;
     const projected_columns columns = fit.project(candidate, evidence.term.shape, false);
-    log_series left = fit.residual();
-    for (std::size_t l = 0; l < left.size(); ++l) {
-        for (std::size_t j = 0; j < left[l].size(); ++j) {
-            left[l][j] = fit.residual_with(candidate, evidence.term.shape, columns, l, static_cast<int>(j));
-        }
+    log_series left;
+    for (std::size_t l = 0; l < fit.logs().size(); ++l) {
+        left.push_back(fit.residual_with(candidate, evidence.term.shape, columns, l));
     }
     return left;
 }
@@ -218,8 +230,6 @@ log_series residual_with(const trace_fit& fit, const effect_evidence& evidence) 
 void test_on_held_back(const trace_fit& fit, effect_evidence& evidence) {
     const effect_candidate& candidate = *evidence.term.candidate;
     const log_series left = residual_with(fit, evidence);
-    double before = 0.0;
-    double after = 0.0;
     double held_back = 0.0;
     evidence.held_back.clear();
     for (std::size_t l = 0; l < fit.logs().size(); ++l) {
@@ -231,13 +241,11 @@ void test_on_held_back(const trace_fit& fit, effect_evidence& evidence) {
         const loss_decrease moving = decrease(fit, l, fit.residual()[l], left[l], length, true);
         evidence.held_back.push_back({all.value, std::sqrt(all.variance), moving.value, std::sqrt(moving.variance)});
         held_back += all.value;
-        for (const int j : candidate.touched) {
-            const auto joint = static_cast<std::size_t>(j);
-            before += fit.residual()[l][joint].cwiseProduct(fit.weight()[l][joint]).squaredNorm();
-            after += left[l][joint].cwiseProduct(fit.weight()[l][joint]).squaredNorm();
-        }
     }
-    evidence.explained_fraction = before > 0.0 ? 1.0 - after / before : 0.0;
+    evidence.explained_fraction = -1.0;
+    for (const int j : candidate.touched) {
+        evidence.explained_fraction = std::max(evidence.explained_fraction, explained_at(fit, left, j));
+    }
     const double price = static_cast<double>(candidate.linear.size() + candidate.shape.size()) *
                          std::log(std::max(2.0, evidence.freedom));
     evidence.score = evidence.gain + held_back - price * evidence.correlation_length;

@@ -30,7 +30,7 @@ struct effect_evidence {
     int shapes_tried = 1;
     std::vector<held_back_gain> held_back;  ///< per log held back
     double score = 0.0;  ///< decrease of the weighted squared residual of all logs, less the price of the parameters
-    double explained_fraction = 0.0;  ///< of the residual variance of its joints on logs held back
+    double explained_fraction = 0.0;  ///< of the residual variance on logs held back, at the joint where that is most
 
     /// Sum over logs in deviations of it.
     double z_all() const;

@@ -28,29 +28,31 @@ constexpr double loosest_shape = 0.5;     ///< deviation of a shape over its val
 /// The error over all joints may rise by this part: other joints' parameters move within their deviations.
 constexpr double error_margin = 2e-3;
 
-/// Share of the residual variance beyond the noise floor that an effect removes from its joints' rows held back.
+/// Share of the residual variance beyond the noise floor that an effect removes from its joints' rows held back, at the
+/// joint where that is most: an effect of the whole robot need not show at every joint.
 double explained_fraction(const trace_fit& before, const trace_fit& after, const std::vector<int>& touched,
                           const noise_floor& floor) {
-    double removed = 0.0;
-    double there = 0.0;
+    double most = -1.0;
     for (const int j : touched) {
         const auto joint = static_cast<std::size_t>(j);
+        double removed = 0.0;
+        double there = 0.0;
         for (std::size_t l = 0; l < before.logs().size(); ++l) {
             if (!before.logs()[l].held_back) {
                 continue;
             }
-            const double weight = 1.0 / (before.noise().moving[j] * before.noise().moving[j]);
-            const double first = weight * before.residual()[l][joint].squaredNorm();
-            removed += first - weight * after.residual()[l][joint].squaredNorm();
+            const double first = before.residual()[l][joint].squaredNorm();
+            removed += first - after.residual()[l][joint].squaredNorm();
             there += first;
             if (floor.rms.size() > 0) {
                 const double noise =
                     floor.rms[j] * floor.rms[j] * static_cast<double>(before.residual()[l][joint].size());
-                there -= weight * std::min(noise, before.residual()[l][joint].squaredNorm());
+                there -= std::min(noise, first);
             }
         }
+        most = std::max(most, there > 0.0 ? std::clamp(removed / there, -1.0, 1.0) : 0.0);
     }
-    return there > 0.0 ? std::clamp(removed / there, -1.0, 1.0) : 0.0;
+    return most;
 }
 
 /// Smallest values of the base parameters that make sense: those of effects' coefficients, by name.

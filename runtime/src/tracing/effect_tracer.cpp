@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "parallel.hpp"
 #include "shape_search.hpp"
@@ -22,24 +23,21 @@ constexpr double needed_z = 1.0;             ///< a term that gains less on data
 /// Torque of the effect at one joint over the fitted logs must not exceed what the joint has at all.
 bool is_plausible(const trace_fit& fit, const effect_evidence& evidence) {
     const effect_candidate& candidate = *evidence.term.candidate;
-    for (const int j : candidate.touched) {
-        double effect = 0.0;
-        double all = 0.0;
-        for (std::size_t l = 0; l < fit.logs().size(); ++l) {
-            if (fit.logs()[l].held_back) {
-                continue;
-            }
-            const auto m = static_cast<Eigen::Index>(candidate.linear.size());
-            const Eigen::Index place = candidate.per_log ? m * static_cast<Eigen::Index>(l) : 0;
-            effect += (candidate.rows(fit.logs()[l], j, evidence.term.shape) * evidence.coefficient.segment(place, m))
-                          .squaredNorm();
-            all += fit.logs()[l].rows.Y[static_cast<std::size_t>(j)].squaredNorm();
+    const auto m = static_cast<Eigen::Index>(candidate.linear.size());
+    std::vector<double> effect(candidate.touched.size(), 0.0);
+    std::vector<double> all = effect;
+    for (std::size_t l = 0; l < fit.logs().size(); ++l) {
+        if (fit.logs()[l].held_back) {
+            continue;
         }
-        if (effect > all) {
-            return false;
+        const Eigen::Index place = candidate.per_log ? m * static_cast<Eigen::Index>(l) : 0;
+        const std::vector<Eigen::MatrixXd> rows = candidate.touched_rows(fit.logs()[l], evidence.term.shape);
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            effect[k] += (rows[k] * evidence.coefficient.segment(place, m)).squaredNorm();
+            all[k] += fit.logs()[l].rows.Y[static_cast<std::size_t>(candidate.touched[k])].squaredNorm();
         }
     }
-    return true;
+    return std::equal(effect.begin(), effect.end(), all.begin(), std::less_equal<>());
 }
 
 bool is_negligible(const effect_evidence& evidence) {
@@ -75,6 +73,19 @@ bool raises_an_error(const trace_fit& fit, const effect_evidence& evidence) {
     return false;
 }
 
+/// Whether a searched shape lies at an end of its range: there the search has found none.
+bool is_at_end_of_range(const effect_term& term) {
+    constexpr double near = 5e-3;  // of the bound: golden section comes to a thousandth of a grid step
+    for (std::size_t s = 0; s < term.candidate->shape.size(); ++s) {
+        const shape_bound& bound = term.candidate->shape[s];
+        const double value = term.shape[static_cast<Eigen::Index>(s)];
+        if (value <= bound.low + near * std::abs(bound.low) || value >= bound.high - near * std::abs(bound.high)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 std::string objection_to(const trace_fit& fit, const tried_candidate& tried) {
     const effect_evidence& evidence = tried.evidence;
     if (tried.p_value >= significance) {
@@ -99,6 +110,9 @@ std::string objection_to(const trace_fit& fit, const tried_candidate& tried) {
     }
     if (is_negligible(evidence)) {
         return "smaller than what sampling makes";
+    }
+    if (is_at_end_of_range(evidence.term)) {
+        return "its shape lies at the end of the range searched";
     }
     if (!is_plausible(fit, evidence)) {
         return "larger than the torque of its joint";

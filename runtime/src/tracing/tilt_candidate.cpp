@@ -1,6 +1,7 @@
 #include <Eigen/SVD>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "link_parameters.hpp"
 #include "model_candidates.hpp"
@@ -67,7 +68,7 @@ class turned_gravity final : public effect_candidate {
         const Eigen::MatrixXd unseen = svd.matrixV().rightCols(B.cols() - rank);
         for (const turned_model& one : turned) {
             axes_.push_back({one.model, one.angle, parameters_in(*one.model, links, unseen)});
-            linear.push_back({one.shape, "rad", -steepest, steepest});
+            linear.push_back({one.shape, "rad", -steepest, 0.0, steepest});
         }
         for (const turned_parameters& axis : axes_) {
             for (Eigen::Index c = 1; c < axis.chi.cols(); ++c) {
@@ -77,22 +78,34 @@ class turned_gravity final : public effect_candidate {
         }
     }
 
-    Eigen::MatrixXd rows(const traced_log& log, int joint, const Eigen::VectorXd&) const override {
-        const Eigen::VectorXd upright = torques_at_rest(model_, log.samples, rigid_).col(joint);
-        Eigen::MatrixXd columns(log.samples.samples(), static_cast<Eigen::Index>(linear.size()));
+    Eigen::MatrixXd rows(const traced_log& log, int joint, const Eigen::VectorXd& at) const override {
+        return touched_rows(log, at)[static_cast<std::size_t>(joint)];
+    }
+
+    std::vector<Eigen::MatrixXd> touched_rows(const traced_log& log, const Eigen::VectorXd&) const override {
+        const Eigen::MatrixXd upright = torques_at_rest(model_, log.samples, rigid_);
+        std::vector<Eigen::MatrixXd> columns(
+            joints.size(), Eigen::MatrixXd::Zero(log.samples.samples(), static_cast<Eigen::Index>(linear.size())));
         auto moment = static_cast<Eigen::Index>(axes_.size());
         for (std::size_t a = 0; a < axes_.size(); ++a) {
             const turned_parameters& axis = axes_[a];
             for (Eigen::Index c = 0; c < axis.chi.cols(); ++c) {
-                const Eigen::VectorXd tau = torques_at_rest(*axis.model, log.samples, axis.chi.col(c)).col(joint);
-                if (c == 0) {
-                    columns.col(static_cast<Eigen::Index>(a)) = (tau - upright) / axis.angle;
-                } else {
-                    columns.col(moment++) = tau / axis.angle;
+                // Gravity turned by an angle is cos times the declared one and sin times the one that is asked for.
+                Eigen::MatrixXd tau = torques_at_rest(*axis.model, log.samples, axis.chi.col(c));
+                tau -= (c == 0 ? std::cos(axis.angle) : 0.0) * upright;
+                if (tau.norm() > rounding * upright.norm()) {
+                    for (std::size_t j = 0; j < joints.size(); ++j) {
+                        columns[j].col(c == 0 ? static_cast<Eigen::Index>(a) : moment) =
+                            tau.col(static_cast<Eigen::Index>(j)) / std::sin(axis.angle);
+                    }
                 }
+                moment += c == 0 ? 0 : 1;
             }
         }
-        return rows_of(log, joint, columns);
+        for (std::size_t j = 0; j < joints.size(); ++j) {
+            columns[j] = rows_of(log, static_cast<int>(j), columns[j]);
+        }
+        return columns;
     }
 
   private:

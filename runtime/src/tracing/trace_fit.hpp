@@ -56,9 +56,9 @@ class trace_fit {
 
     /// Columns of a candidate, `quick` for those without low-pass.
     projected_columns project(const effect_candidate& candidate, const Eigen::VectorXd& shape, bool quick) const;
-    /// Residual of log l at `joint` once the columns were added and everything fitted again.
-    Eigen::VectorXd residual_with(const effect_candidate& candidate, const Eigen::VectorXd& shape,
-                                  const projected_columns& columns, std::size_t log, int joint) const;
+    /// Residual of log l at every joint once the columns were added and everything fitted again.
+    std::vector<Eigen::VectorXd> residual_with(const effect_candidate& candidate, const Eigen::VectorXd& shape,
+                                               const projected_columns& columns, std::size_t log) const;
 
     /// Deviations of the residual as this fit leaves it, for the next one.
     row_noise estimated_noise() const;
