@@ -170,7 +170,7 @@ class soft_transmission final : public effect_candidate {
 }  // namespace
 
 candidate_pointer delay_candidate(int joint, double at, double period) {
-    return std::make_shared<delayed_torque>(std::vector<int>{joint}, at, linear_bound{"Td", "s", 0.0, 0.5 * period});
+    return std::make_shared<delayed_torque>(std::vector<int>{joint}, at, linear_bound{"Td", "s", 0.0, period});
 }
 
 candidate_pointer alignment_candidate(int joints, double at) {

@@ -9,8 +9,8 @@
 namespace idim {
 
 /// The torque of joint j measured late by Td >= 0: the column is the secant (tau(t - at) - tau(t)) / at of the present
-/// model's torque, its coefficient Td. Less than half the sampling period of the log tells of the sampling, not of the
-/// robot: by so much a held command leads.
+/// model's torque, its coefficient Td. A delay below the sampling period of the log tells of the sampling, not of the
+/// robot.
 candidate_pointer delay_candidate(int joint, double at, double period);
 
 /// All joints' torque late by the same time, a part of a sample: a drive that holds its command for a period, a logger
