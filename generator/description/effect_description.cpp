@@ -163,7 +163,8 @@ std::string law_of(const effect_description& effect) {
         {effect_kind::delay, "torque(t - Td)"},
         {effect_kind::gain, "(1 + Ke)*torque"},
         {effect_kind::elasticity, "q of the link = q of the motor - tau_rigid/K"},
-        {effect_kind::tilt, "gravity turned by tilt_x about x, then by tilt_y about y of the base"},
+        {effect_kind::tilt,
+         "gravity turned by tilt_x about x, then by tilt_y about y, then by tilt_z about z of the base"},
         {effect_kind::payload, "ten inertial parameters at the link from t0 to t1"}};
     if (const auto kind = kinds.find(effect.kind); kind != kinds.end()) {
         return kind->second;

@@ -67,18 +67,24 @@ void tilt_gravity(const std::vector<effect_use>& uses, const std::vector<effect_
         if (descriptions[u].kind != effect_kind::tilt) {
             continue;
         }
-        const auto angle = [&](const char* shape) {
-            return exact_decimal(shape_value(uses[u], descriptions[u], shape), uses[u].where);
+        const auto angle = [&](const char* shape) -> ex {
+            const bool left_out = !uses[u].shape.empty() && uses[u].shape.count(shape) == 0;
+            return left_out ? ex(0) : exact_decimal(shape_value(uses[u], descriptions[u], shape), uses[u].where);
         };
         const auto number = [&](const ex& value) -> ex { return constant_value(value, uses[u].where); };
         const ex cx = number(GiNaC::cos(angle("tilt_x")));
         const ex sx = number(GiNaC::sin(angle("tilt_x")));
         const ex cy = number(GiNaC::cos(angle("tilt_y")));
         const ex sy = number(GiNaC::sin(angle("tilt_y")));
+        const ex cz = number(GiNaC::cos(angle("tilt_z")));
+        const ex sz = number(GiNaC::sin(angle("tilt_z")));
         const auto [x, y, z] = tree.gravity;
-        const ex turned_y = cx * y - sx * z;
-        const ex turned_z = sx * y + cx * z;
-        tree.gravity = {(cy * x + sy * turned_z).expand(), turned_y.expand(), (-sy * x + cy * turned_z).expand()};
+        const ex about_x_y = cx * y - sx * z;
+        const ex about_x_z = sx * y + cx * z;
+        const ex about_y_x = cy * x + sy * about_x_z;
+        const ex about_y_z = -sy * x + cy * about_x_z;
+        tree.gravity = {(cz * about_y_x - sz * about_x_y).expand(), (sz * about_y_x + cz * about_x_y).expand(),
+                        about_y_z.expand()};
     }
 }
 

@@ -31,9 +31,11 @@ void print_diagnosis(const traced_robot& traced, const effect_trace& trace) {
                    100.0 * candidate.explained_fraction, candidate.objection);
     }
     fmt::print("p corrected for {:.0f} candidates and shapes tried\n", trace.tests);
-    for (const effect_place& place : trace.not_identifiable) {
-        fmt::print("not identifiable from this data, within the span of the model: {}\n",
-                   describe(place, traced.robot));
+    for (const hidden_effect& hidden : trace.not_identifiable) {
+        fmt::print("not identifiable from this data: {}, {}\n", describe(hidden.place, traced.robot), hidden.reason);
+    }
+    for (const unsupported_term& term : trace.unsupported) {
+        fmt::print("declared, not supported by this data: {}\n", describe(term, trace.after, traced.robot));
     }
 }
 

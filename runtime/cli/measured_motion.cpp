@@ -26,6 +26,11 @@ loaded_robot load_robot(const std::string& robot_file) {
     return {std::move(generated), std::move(compiled)};
 }
 
+compiled_model load_variant(const std::string& robot_file) {
+    const generator::generated_model generated = generator::generate(robot_file, templates_folder());
+    return compile_files(generated.files, generated.input_hash);
+}
+
 compiled_effects load_effects(const std::string& robot_file) {
     const generator::effect_library library = generator::generate_effects(robot_file, templates_folder());
     std::vector<model_source> sources;

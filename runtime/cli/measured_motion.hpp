@@ -26,6 +26,9 @@ compiled_model compile_files(const std::vector<generator::rendered_file>& files,
 /// Generates, compiles (or takes from the cache) and loads the model of a robot description.
 loaded_robot load_robot(const std::string& robot_file);
 
+/// The model of a description that stands for another: what is to be known of that one was said already.
+compiled_model load_variant(const std::string& robot_file);
+
 /// Generates, compiles (or takes from the cache) and loads the effects that a residual of this robot may be traced to.
 compiled_effects load_effects(const std::string& robot_file);
 

@@ -54,6 +54,22 @@ std::string candidate_table(const refine_outcome& outcome) {
     return text;
 }
 
+std::string unsupported_text(const refine_outcome& outcome) {
+    std::string text;
+    for (const unsupported_term& term : outcome.trace.unsupported) {
+        text += "- " + describe(term, outcome.trace.after, outcome.before.robot) + "\n";
+    }
+    return text.empty() ? "" : "\n## Declared, not supported by this data\n\n" + text;
+}
+
+std::string hidden_text(const refine_outcome& outcome) {
+    std::string text;
+    for (const hidden_effect& hidden : outcome.trace.not_identifiable) {
+        text += fmt::format("- {}: {}\n", describe(hidden.place, outcome.before.robot), hidden.reason);
+    }
+    return text.empty() ? "" : "\n## Not identifiable from this data (within the span of the model)\n\n" + text;
+}
+
 }  // namespace
 
 std::string to_markdown(const refine_outcome& outcome) {
@@ -77,12 +93,7 @@ std::string to_markdown(const refine_outcome& outcome) {
     }
     text += fmt::format("\n## What was tried last\n\n{}\np corrected for {:.0f} candidates and shapes.\n",
                         candidate_table(outcome), outcome.trace.tests);
-    if (!outcome.trace.not_identifiable.empty()) {
-        text += "\n## Not identifiable from this data (within the span of the model)\n\n";
-        for (const effect_place& place : outcome.trace.not_identifiable) {
-            text += "- " + describe(place, robot) + "\n";
-        }
-    }
+    text += unsupported_text(outcome) + hidden_text(outcome);
     return text;
 }
 

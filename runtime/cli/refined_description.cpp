@@ -1,5 +1,6 @@
 #include "refined_description.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -34,12 +35,23 @@ std::string description_of_urdf(const std::string& file) {
     return text;
 }
 
-generator::effect_item item_of(const trace_step& step, const loaded_robot& robot) {
-    generator::effect_item item{step.place.effect, {joint_name(robot, step.place.joints.front())}, {}, {}};
-    if (step.place.joints.size() == 2) {
-        item.from.push_back(joint_name(robot, step.place.joints[1]));
-    } else if (step.place.from) {
-        item.from.push_back(joint_name(robot, *step.place.from));
+/// Whether the effect is the whole robot's: no joints are written for it.
+bool is_of_the_robot(const std::string& effect, const idim_effect_table& catalogue) {
+    return std::any_of(catalogue.effects, catalogue.effects + catalogue.count, [&](const idim_effect& entry) {
+        return entry.name == effect && entry.scope == IDIM_EFFECT_ROBOT;
+    });
+}
+
+generator::effect_item item_of(const trace_step& step, const traced_robot& traced) {
+    const loaded_robot& robot = traced.robot;
+    generator::effect_item item{step.place.effect, {}, {}, {}};
+    if (!is_of_the_robot(step.place.effect, traced.effects.table())) {
+        item.joints.push_back(joint_name(robot, step.place.joints.front()));
+        if (step.place.joints.size() == 2) {
+            item.from.push_back(joint_name(robot, step.place.joints[1]));
+        } else if (step.place.from) {
+            item.from.push_back(joint_name(robot, *step.place.from));
+        }
     }
     for (const effect_parameter& parameter : step.parameters) {
         if (parameter.is_shape) {
@@ -84,12 +96,8 @@ void copy_what_it_names(const std::string& robot_file, const fs::path& folder) {
 
 }  // namespace
 
-std::string write_refined_description(const std::string& robot_file, const traced_robot& traced,
-                                      const std::vector<trace_step>& steps, const std::string& folder) {
-    std::vector<generator::effect_item> items;
-    for (const trace_step& step : steps) {
-        items.push_back(item_of(step, traced.robot));
-    }
+std::string write_with_effects(const std::string& robot_file, const std::vector<generator::effect_item>& items,
+                               const std::string& folder) {
     const std::string before = is_urdf(robot_file) ? description_of_urdf(robot_file)
                                                    : generator::read_text_file(robot_file, largest_description);
     const std::string text = generator::with_effects(before, items, robot_file);
@@ -102,6 +110,15 @@ std::string write_refined_description(const std::string& robot_file, const trace
         throw input_error({path.string(), 0, ""}, "cannot be written");
     }
     return path.string();
+}
+
+std::string write_refined_description(const std::string& robot_file, const traced_robot& traced,
+                                      const std::vector<trace_step>& steps, const std::string& folder) {
+    std::vector<generator::effect_item> items;
+    for (const trace_step& step : steps) {
+        items.push_back(item_of(step, traced));
+    }
+    return write_with_effects(robot_file, items, folder);
 }
 
 }  // namespace idim::cli

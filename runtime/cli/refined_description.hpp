@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "description/effect_insertion.hpp"
 #include "traced_robot.hpp"
 
 namespace idim::cli {
@@ -12,5 +13,9 @@ namespace idim::cli {
 /// Returns the path. Throws input_error where something cannot be read or written.
 std::string write_refined_description(const std::string& robot_file, const traced_robot& traced,
                                       const std::vector<trace_step>& steps, const std::string& folder);
+
+/// The same with items as they stand.
+std::string write_with_effects(const std::string& robot_file, const std::vector<generator::effect_item>& items,
+                               const std::string& folder);
 
 }  // namespace idim::cli

@@ -78,6 +78,27 @@ json unexplained_json(const effect_trace& trace, const loaded_robot& robot) {
     return list;
 }
 
+json hidden_json(const effect_trace& trace, const loaded_robot& robot) {
+    json list = json::array();
+    for (const hidden_effect& hidden : trace.not_identifiable) {
+        list.push_back(place_json(hidden.place, robot));
+        list.back()["reason"] = hidden.reason;
+    }
+    return list;
+}
+
+json unsupported_json(const effect_trace& trace, const loaded_robot& robot) {
+    json list = json::array();
+    for (const unsupported_term& term : trace.unsupported) {
+        json entry = place_json(term.place, robot);
+        entry["parameters"] = term.parameters;
+        entry["p_value"] = term.p_value;
+        entry["without"] = to_json(term.without, robot);
+        list.push_back(entry);
+    }
+    return list;
+}
+
 json floor_json(const noise_floor& floor) {
     if (floor.rms.size() == 0) {
         return nullptr;
@@ -107,6 +128,15 @@ std::string describe(const effect_place& place, const loaded_robot& robot) {
     return text;
 }
 
+std::string describe(const unsupported_term& term, const trace_errors& with, const loaded_robot& robot) {
+    return fmt::format(
+        "{} ({}), p {:.2g}; errors without it {:.3f} % fitted, {:.3f} % held back, with all terms {:.3f} % and {:.3f} "
+        "%",
+        describe(term.place, robot), fmt::join(term.parameters, ", "), term.p_value,
+        100.0 * term.without.identification.relative_error, 100.0 * term.without.validation.relative_error,
+        100.0 * with.identification.relative_error, 100.0 * with.validation.relative_error);
+}
+
 json to_json(const effect_trace& trace, const traced_robot& traced) {
     const loaded_robot& robot = traced.robot;
     json steps = json::array();
@@ -121,7 +151,8 @@ json to_json(const effect_trace& trace, const traced_robot& traced) {
             {"tests", trace.tests},
             {"steps", steps},
             {"candidates", candidates_json(trace, robot)},
-            {"not_identifiable", places_json(trace.not_identifiable, robot)},
+            {"not_identifiable", hidden_json(trace, robot)},
+            {"unsupported", unsupported_json(trace, robot)},
             {"unexplained", unexplained_json(trace, robot)}};
 }
 

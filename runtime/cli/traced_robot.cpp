@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "description/robot_description.hpp"
 #include "idim/input_error.hpp"
 
@@ -54,6 +56,9 @@ trace_input traced_robot::input() const {
     all.fitted = fitted;
     all.held_back = held_back;
     all.filter = filter;
+    for (const turned_robot& one : turned) {
+        all.turned.push_back({one.shape, one.angle, &one.model.interface()});
+    }
     all.catalogue = &effects.table();
     all.declared = declared;
     return all;
@@ -74,7 +79,7 @@ traced_robot load_traced_robot(const trace_options& options) {
     const std::vector<idim::log> validation = read_logs(robot, options.validation);
     check_torque(logs, joints_at_rest(robot, logs), robot.generated.joints.size());
     const filter_choice filter = choose_filter(logs, options.filter);
-    traced_robot traced{std::move(robot), load_effects(options.robot), filter, {}, {}, {}, {}};
+    traced_robot traced{std::move(robot), load_effects(options.robot), {}, filter, {}, {}, {}, {}};
     for (const idim::log& data : logs) {
         filtered_samples samples = filter_log(data, filter);
         if (!validation.empty()) {
@@ -93,13 +98,17 @@ traced_robot load_traced_robot(const trace_options& options) {
         traced.held_back_note = "no validation log was given: the last third of every log is held back";
     }
     traced.declared = declared_effects(options.robot, traced.robot);
+    const bool is_declared = std::any_of(traced.declared.begin(), traced.declared.end(),
+                                         [](const effect_place& place) { return place.effect == "base_tilt"; });
+    if (!is_declared) {
+        traced.turned = load_turned(options.robot);
+    }
     return traced;
 }
 
 traced_robot with_description(const traced_robot& before, const std::string& robot_file) {
-    traced_robot after{load_robot(robot_file), load_effects(robot_file), before.filter,
-                       before.fitted,          before.held_back,         {},
-                       before.held_back_note};
+    traced_robot after{load_robot(robot_file), load_effects(robot_file), {}, before.filter,
+                       before.fitted,          before.held_back,         {}, before.held_back_note};
     after.declared = declared_effects(robot_file, after.robot);
     return after;
 }

@@ -4,6 +4,7 @@
 
 #include "identification.hpp"
 #include "idim/effect_trace.hpp"
+#include "turned_robot.hpp"
 
 namespace idim::cli {
 
@@ -21,6 +22,7 @@ struct trace_options {
 struct traced_robot {
     loaded_robot robot;
     compiled_effects effects;
+    std::vector<turned_robot> turned;
     filter_choice filter;
     std::vector<filtered_samples> fitted;
     std::vector<filtered_samples> held_back;

@@ -65,6 +65,14 @@ std::array<double, 2> scara_torque(const instant& s) {
                 Fv2 * s.qd[1] + Fc2 * sign(s.qd[1])};
 }
 
+/// The same arm upright, gravity g turned by `tilt` about its axes: the potential of first moments at q1 and q1 + q2.
+std::array<double, 2> gravity_torque(const instant& s, double tilt) {
+    constexpr double g = 9.81, A = 2.1, MX2 = 0.242, MY2 = 0.014;  // LMX2, LMY2 of scara_torque over L = 0.5 m
+    const double both = s.q[0] + s.q[1] - tilt;
+    const double second = g * (MX2 * std::cos(both) - MY2 * std::sin(both));
+    return {g * A * std::cos(s.q[0] - tilt) + second, second};
+}
+
 std::string log_text(int which, unsigned seed, const undeclared& missing) {
     std::mt19937_64 random(seed);
     std::normal_distribution<double> normal;
@@ -82,11 +90,14 @@ std::string log_text(int which, unsigned seed, const undeclared& missing) {
 
 class RefineCommand : public ::testing::Test {
   protected:
-    json refine(const undeclared& missing) {
-        const std::string robot = folder_.write("arm.yaml",
-                                                "name: arm\ngravity: [0, 0, 0]   # flat\njoints:\n"
-                                                "  - {name: j1, theta: q}\n  - {name: j2, d: 0.5, theta: q}\n"
-                                                "effects: [viscous_friction, coulomb_friction]   # both joints\n");
+    json refine(const undeclared& missing, const std::string& gravity = "[0, 0, 0]",
+                const std::string& more_effects = "") {
+        const std::string robot =
+            folder_.write("arm.yaml", "name: arm\ngravity: " + gravity +
+                                          "   # flat\njoints:\n"
+                                          "  - {name: j1, theta: q}\n  - {name: j2, d: 0.5, theta: q}\n"
+                                          "effects: [viscous_friction, coulomb_friction" +
+                                          more_effects + "]   # both joints\n");
         const std::string fitted = folder_.write("ident.csv", log_text(0, 1, missing));
         const std::string other = folder_.write("valid.csv", log_text(1, 2, missing));
         const command_result answer =
@@ -144,6 +155,47 @@ TEST_F(RefineCommand, FrictionOfTheOtherJointIsFoundAtThePair) {
     expect_one(result, "coupling_friction", {"j2"});
     EXPECT_EQ(result["steps"][0]["from"], json({"j1"}));
     expect_near(result["steps"][0]["parameters"]["Fcc"], 0.03);
+}
+
+TEST_F(RefineCommand, ATiltedBaseIsFoundWithItsAngle) {
+    const json result = refine([](const instant& s) { return gravity_torque(s, 0.04); }, "[0, -9.81, 0]");
+    ASSERT_EQ(result["steps"].size(), 1U) << result["steps"].dump();
+    EXPECT_EQ(result["steps"][0]["effect"], "base_tilt");
+    expect_near(result["steps"][0]["parameters"]["tilt_z"], 0.04);
+    EXPECT_LT(result["after"]["validation"]["relative_error"], result["before"]["validation"]["relative_error"]);
+    EXPECT_NE(read_text(output() + "/robot.yaml").find("{effect: base_tilt, shape: {tilt_"), std::string::npos);
+}
+
+TEST_F(RefineCommand, WhatTheModelTakesUpIsListedWithItsReason) {
+    const json result = refine([](const instant& s) { return gravity_torque(s, 0.0); }, "[0, -9.81, 0]");
+    EXPECT_TRUE(result["steps"].empty()) << result["steps"].dump();
+    std::string hidden;
+    for (const json& entry : result["not_identifiable"]) {
+        hidden += std::string(entry["effect"]) + " " + std::string(entry["joints"][0]) + ": " +
+                  std::string(entry["reason"]) + "\n";
+    }
+    const std::size_t start = hidden.find("gravity_compensator j1: taken up by ");
+    ASSERT_NE(start, std::string::npos) << hidden;
+    const std::string line = hidden.substr(start, hidden.find('\n', start) - start);
+    EXPECT_NE(line.find("MX1R"), std::string::npos) << line;  // cos(q1) and sin(q1)
+    EXPECT_NE(line.find("MY1"), std::string::npos) << line;
+    EXPECT_NE(hidden.find("payload j2: a load that never comes off"), std::string::npos) << hidden;
+    EXPECT_EQ(hidden.find("spring"), std::string::npos) << hidden;
+}
+
+TEST_F(RefineCommand, DeclaredTermsThatTheDataDoesNotSupportAreNamed) {
+    const json result = refine([](const instant&) { return std::array<double, 2>{}; }, "[0, 0, 0]", ", torque_offset");
+    std::string named;
+    for (const json& term : result["unsupported"]) {
+        named += std::string(term["effect"]) + " " + std::string(term["joints"][0]) + "\n";
+        EXPECT_GT(term["p_value"], 0.05);
+        // Left out, it costs no more than its own noise: one coefficient of thousands of rows.
+        EXPECT_NEAR(term["without"]["validation"]["relative_error"], result["after"]["validation"]["relative_error"],
+                    0.01 * double(result["after"]["validation"]["relative_error"]));
+    }
+    EXPECT_NE(named.find("torque_offset j1"), std::string::npos) << named;
+    EXPECT_NE(named.find("torque_offset j2"), std::string::npos) << named;
+    EXPECT_EQ(named.find("coulomb_friction"), std::string::npos) << named;
 }
 
 TEST_F(RefineCommand, LeavesADescriptionAndCodeThatReproduceTheResult) {

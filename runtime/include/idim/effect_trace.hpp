@@ -65,6 +65,20 @@ struct trace_candidate {
     std::string objection;            ///< why it is not in the model
 };
 
+/// An effect that no residual of these logs can show, and why.
+struct hidden_effect {
+    effect_place place;
+    std::string reason;
+};
+
+/// A term of the description that the data does not support.
+struct unsupported_term {
+    effect_place place;
+    std::vector<std::string> parameters;  ///< base parameters that are its own
+    double p_value = 1.0;                 ///< partial F on effective rows
+    trace_errors without;                 ///< errors without it and those listed before it
+};
+
 /// Dependence of the residual on signals that no known effect fits.
 struct unexplained_structure {
     int joint = 0;
@@ -90,15 +104,24 @@ struct effect_trace {
     noise_floor floor;
     std::vector<trace_step> steps;
     std::vector<trace_candidate> candidates;
-    std::vector<effect_place> not_identifiable;  ///< within the span of the model: no residual can show them
+    std::vector<hidden_effect> not_identifiable;  ///< within the span of the model: no residual can show them
+    std::vector<unsupported_term> unsupported;    ///< declared, least significant first
     std::vector<unexplained_structure> unexplained;
     double alignment = 0.0;  ///< torque behind the motion by this part of a sample, taken off [s]
     double tests = 0.0;      ///< candidates and shapes tried in the last round
 };
 
+/// The model of the same robot with gravity turned, its standard parameters the same.
+struct turned_model {
+    std::string shape;  ///< "tilt_x", "tilt_y" or "tilt_z"
+    double angle = 0.0;
+    const idim_model_interface* model = nullptr;
+};
+
 /// What the tracer starts from.
 struct trace_input {
     const idim_model_interface* model = nullptr;
+    std::vector<turned_model> turned;  ///< about each axis that gravity is not along
     std::vector<filtered_samples> fitted;
     std::vector<filtered_samples> held_back;
     filter_choice filter;

@@ -1,6 +1,8 @@
 #include "candidate_list.hpp"
 
 #include <algorithm>
+#include <string>
+#include <utility>
 
 #include "expression_candidate.hpp"
 #include "model_candidates.hpp"
@@ -47,7 +49,7 @@ void add_at_joints(const trace_input& input, const idim_effect& effect, const Ei
                 list.push_back(payload_candidate(model, j));
                 break;
             case IDIM_EFFECT_TILT:
-                break;
+                break;  // of the whole robot
             default:
                 list.push_back(expression_candidate(effect, j, -1));
         }
@@ -73,6 +75,11 @@ bool has_signals(const trace_input& input, const idim_effect& effect) {
            std::all_of(input.held_back.begin(), input.held_back.end(), recorded);
 }
 
+bool is_declared(const trace_input& input, const std::string& effect) {
+    return std::any_of(input.declared.begin(), input.declared.end(),
+                       [&](const effect_place& place) { return place.effect == effect; });
+}
+
 }  // namespace
 
 std::vector<candidate_pointer> list_candidates(const trace_input& input, const std::vector<effect_term>& terms,
@@ -83,7 +90,11 @@ std::vector<candidate_pointer> list_candidates(const trace_input& input, const s
         if (!has_signals(input, effect)) {
             continue;
         }
-        if (effect.scope == IDIM_EFFECT_PAIR) {
+        if (effect.kind == IDIM_EFFECT_TILT) {
+            if (candidate_pointer tilt = tilt_candidate(*input.model, input.turned, chi)) {
+                list.push_back(std::move(tilt));
+            }
+        } else if (effect.scope == IDIM_EFFECT_PAIR) {
             add_at_pairs(input, effect, list);
         } else {
             add_at_joints(input, effect, chi, list);
@@ -91,7 +102,9 @@ std::vector<candidate_pointer> list_candidates(const trace_input& input, const s
     }
     const auto taken = [&](const candidate_pointer& candidate) {
         const effect_place place{candidate->effect, candidate->joints, candidate->from};
-        if (!input.only.empty() && std::find(input.only.begin(), input.only.end(), place) == input.only.end()) {
+        const bool asked =
+            input.only.empty() || std::find(input.only.begin(), input.only.end(), place) != input.only.end();
+        if (!asked || (candidate->is_of_the_robot && is_declared(input, candidate->effect))) {
             return true;
         }
         return std::find(input.declared.begin(), input.declared.end(), place) != input.declared.end() ||

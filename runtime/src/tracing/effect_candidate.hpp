@@ -20,6 +20,8 @@ struct linear_bound {
     std::string unit;
     double min = -std::numeric_limits<double>::infinity();
     double negligible = 0.0;  ///< a smaller value is none of the robot's
+    double max = std::numeric_limits<double>::infinity();
+    bool is_nuisance = false;  ///< fitted, but no coefficient of the effect
 };
 
 /// A coefficient that enters nonlinearly and is searched in [low, high].
@@ -48,7 +50,9 @@ class effect_candidate {
     std::vector<linear_bound> linear;  ///< m of them
     std::vector<shape_bound> shape;
     column_role role = column_role::linear;
-    bool per_log = false;  ///< linear coefficients are refitted for each log
+    bool is_of_the_robot = false;  ///< at no joint in particular: `joints` are all of them
+    std::string when_permanent;    ///< why it cannot be seen if it lasts for the whole of every log; empty if it can
+    bool per_log = false;          ///< linear coefficients are refitted for each log
     /// A direction of the scaled columns whose norm outside the model's span is below this counts as within it: a drive
     /// gain shows only in 1e-4 of its column, rounding and filter ends in 1e-7.
     double least_outside = 1e-5;
@@ -59,6 +63,14 @@ class effect_candidate {
     /// The same without the low-pass, from the signals at the rows' own times: good enough to search a shape.
     virtual Eigen::MatrixXd quick_rows(const traced_log& log, int joint, const Eigen::VectorXd& at) const {
         return rows(log, joint, at);
+    }
+    /// Those of all joints it touches, in their order.
+    virtual std::vector<Eigen::MatrixXd> touched_rows(const traced_log& log, const Eigen::VectorXd& at) const {
+        std::vector<Eigen::MatrixXd> all;
+        for (const int joint : touched) {
+            all.push_back(rows(log, joint, at));
+        }
+        return all;
     }
     /// Value and deviation that the description declares, from those of a coefficient.
     virtual std::pair<double, double> declared(double coefficient, double deviation) const {

@@ -75,15 +75,44 @@ double tail_of_f(double f, double m, double freedom) {
     return boost::math::cdf(boost::math::complement(distribution, f));
 }
 
-/// Weighted squared residual of the candidate's joints over the fitted logs, rows of them and rows that count.
-struct touched_rows {
-    double squared = 0.0;
-    double rows = 0.0;
-    double effective = 0.0;
-};
+double share_of_parameters(const trace_fit& fit, double rows) {
+    double all = 0.0;
+    for (std::size_t l = 0; l < fit.logs().size(); ++l) {
+        for (const Eigen::VectorXd& residual : fit.residual()[l]) {
+            all += fit.logs()[l].held_back ? 0.0 : static_cast<double>(residual.size());
+        }
+    }
+    return fit.parameters() * rows / all;
+}
 
-touched_rows sum_touched(const trace_fit& fit, const std::vector<int>& touched, const log_series& residual) {
-    touched_rows sums;
+/// Share of the weighted squared residual of one joint that is gone from the logs held back.
+double explained_at(const trace_fit& fit, const log_series& left, int joint) {
+    const auto j = static_cast<std::size_t>(joint);
+    double before = 0.0;
+    double after = 0.0;
+    for (std::size_t l = 0; l < fit.logs().size(); ++l) {
+        if (fit.logs()[l].held_back) {
+            before += fit.residual()[l][j].cwiseProduct(fit.weight()[l][j]).squaredNorm();
+            after += left[l][j].cwiseProduct(fit.weight()[l][j]).squaredNorm();
+        }
+    }
+    return before > 0.0 ? 1.0 - after / before : 0.0;
+}
+
+bool within_bounds(const effect_candidate& candidate, const Eigen::VectorXd& coefficient) {
+    for (Eigen::Index c = 0; c < coefficient.size(); ++c) {
+        const std::size_t which = static_cast<std::size_t>(c) % candidate.linear.size();
+        if (coefficient[c] < candidate.linear[which].min || coefficient[c] > candidate.linear[which].max) {
+            return false;
+        }
+    }
+    return true;
+}
+
+}  // namespace
+
+row_count count_rows(const trace_fit& fit, const std::vector<int>& touched, const log_series& residual) {
+    row_count sums;
     for (const int j : touched) {
         double rows = 0.0;
         for (std::size_t l = 0; l < fit.logs().size(); ++l) {
@@ -96,30 +125,19 @@ touched_rows sum_touched(const trace_fit& fit, const std::vector<int>& touched, 
         sums.rows += rows;
         sums.effective += rows / correlation_length(fit, residual, j);
     }
+    sums.parameters = share_of_parameters(fit, sums.rows);
     return sums;
 }
 
-double share_of_parameters(const trace_fit& fit, double rows) {
-    double all = 0.0;
-    for (std::size_t l = 0; l < fit.logs().size(); ++l) {
-        for (const Eigen::VectorXd& residual : fit.residual()[l]) {
-            all += fit.logs()[l].held_back ? 0.0 : static_cast<double>(residual.size());
-        }
-    }
-    return fit.parameters() * rows / all;
+f_test partial_f(const row_count& rows, double gain, double m) {
+    f_test test;
+    const double length = rows.length();
+    test.freedom = std::max(1.0, rows.effective - rows.parameters / length - m);
+    const double variance = rows.squared / std::max(1.0, rows.rows - rows.parameters);
+    test.statistic = gain / (m * length * std::max(variance, 1e-300));
+    test.p_value = tail_of_f(test.statistic, m, test.freedom);
+    return test;
 }
-
-bool within_bounds(const effect_candidate& candidate, const Eigen::VectorXd& coefficient) {
-    for (Eigen::Index c = 0; c < coefficient.size(); ++c) {
-        const std::size_t which = static_cast<std::size_t>(c) % candidate.linear.size();
-        if (coefficient[c] < candidate.linear[which].min) {
-            return false;
-        }
-    }
-    return true;
-}
-
-}  // namespace
 
 double effect_evidence::z_all() const {
     double sum = 0.0;
@@ -189,25 +207,22 @@ effect_evidence test_on_fitted(const trace_fit& fit, const effect_term& term, bo
             left[l][joint] -= added.cwiseQuotient(fit.weight()[l][joint]);
         }
     }
-    const touched_rows after = sum_touched(fit, candidate.touched, left);
-    evidence.correlation_length = after.effective > 0.0 ? after.rows / after.effective : 1.0;
-    const auto m = static_cast<double>(columns.rank + static_cast<int>(candidate.shape.size()));
-    const double used = share_of_parameters(fit, after.rows) / evidence.correlation_length;
-    evidence.freedom = std::max(1.0, after.effective - used - m);
-    const double variance = after.squared / std::max(1.0, after.rows - share_of_parameters(fit, after.rows));
-    evidence.f_statistic = columns.gain / (m * evidence.correlation_length * std::max(variance, 1e-300));
-    evidence.p_value = tail_of_f(evidence.f_statistic, m, evidence.freedom);
+    const row_count after = count_rows(fit, candidate.touched, left);
+    const f_test test =
+        partial_f(after, columns.gain, static_cast<double>(columns.rank + static_cast<int>(candidate.shape.size())));
+    evidence.correlation_length = after.length();
+    evidence.freedom = test.freedom;
+    evidence.f_statistic = test.statistic;
+    evidence.p_value = test.p_value;
     return evidence;
 }
 
 log_series residual_with(const trace_fit& fit, const effect_evidence& evidence) {
     const effect_candidate& candidate = *evidence.term.candidate;
     const projected_columns columns = fit.project(candidate, evidence.term.shape, false);
-    log_series left = fit.residual();
-    for (std::size_t l = 0; l < left.size(); ++l) {
-        for (std::size_t j = 0; j < left[l].size(); ++j) {
-            left[l][j] = fit.residual_with(candidate, evidence.term.shape, columns, l, static_cast<int>(j));
-        }
+    log_series left;
+    for (std::size_t l = 0; l < fit.logs().size(); ++l) {
+        left.push_back(fit.residual_with(candidate, evidence.term.shape, columns, l));
     }
     return left;
 }
@@ -215,8 +230,6 @@ log_series residual_with(const trace_fit& fit, const effect_evidence& evidence) 
 void test_on_held_back(const trace_fit& fit, effect_evidence& evidence) {
     const effect_candidate& candidate = *evidence.term.candidate;
     const log_series left = residual_with(fit, evidence);
-    double before = 0.0;
-    double after = 0.0;
     double held_back = 0.0;
     evidence.held_back.clear();
     for (std::size_t l = 0; l < fit.logs().size(); ++l) {
@@ -228,13 +241,11 @@ void test_on_held_back(const trace_fit& fit, effect_evidence& evidence) {
         const loss_decrease moving = decrease(fit, l, fit.residual()[l], left[l], length, true);
         evidence.held_back.push_back({all.value, std::sqrt(all.variance), moving.value, std::sqrt(moving.variance)});
         held_back += all.value;
-        for (const int j : candidate.touched) {
-            const auto joint = static_cast<std::size_t>(j);
-            before += fit.residual()[l][joint].cwiseProduct(fit.weight()[l][joint]).squaredNorm();
-            after += left[l][joint].cwiseProduct(fit.weight()[l][joint]).squaredNorm();
-        }
     }
-    evidence.explained_fraction = before > 0.0 ? 1.0 - after / before : 0.0;
+    evidence.explained_fraction = -1.0;
+    for (const int j : candidate.touched) {
+        evidence.explained_fraction = std::max(evidence.explained_fraction, explained_at(fit, left, j));
+    }
     const double price = static_cast<double>(candidate.linear.size() + candidate.shape.size()) *
                          std::log(std::max(2.0, evidence.freedom));
     evidence.score = evidence.gain + held_back - price * evidence.correlation_length;

@@ -30,12 +30,35 @@ struct effect_evidence {
     int shapes_tried = 1;
     std::vector<held_back_gain> held_back;  ///< per log held back
     double score = 0.0;  ///< decrease of the weighted squared residual of all logs, less the price of the parameters
-    double explained_fraction = 0.0;  ///< of the residual variance of its joints on logs held back
+    double explained_fraction = 0.0;  ///< of the residual variance on logs held back, at the joint where that is most
 
     /// Sum over logs in deviations of it.
     double z_all() const;
     double z_moving() const;
 };
+
+/// Rows of some joints over the fitted logs, and what a residual leaves in them.
+struct row_count {
+    double squared = 0.0;  ///< weighted squared residual
+    double rows = 0.0;
+    double effective = 0.0;   ///< as many as are independent
+    double parameters = 0.0;  ///< the share of the model's parameters that these rows pay for
+
+    /// Integrated autocorrelation time [rows].
+    double length() const { return effective > 0.0 ? rows / effective : 1.0; }
+};
+
+row_count count_rows(const trace_fit& fit, const std::vector<int>& touched, const log_series& residual);
+
+/// Partial F of m columns that lower the weighted squared residual by `gain`, on rows thinned past the correlation of
+/// what they leave.
+struct f_test {
+    double statistic = 0.0;
+    double freedom = 1.0;
+    double p_value = 1.0;
+};
+
+f_test partial_f(const row_count& rows, double gain, double m);
 
 /// Partial F of the candidate on as many rows as are independent: the rows of its joints over the integrated
 /// autocorrelation time of the residual it leaves.

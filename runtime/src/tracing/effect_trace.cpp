@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "candidate_list.hpp"
+#include "declared_terms.hpp"
 #include "effect_tracer.hpp"
 #include "idim/input_error.hpp"
 #include "model_candidates.hpp"
@@ -28,53 +29,31 @@ constexpr double loosest_shape = 0.5;     ///< deviation of a shape over its val
 /// The error over all joints may rise by this part: other joints' parameters move within their deviations.
 constexpr double error_margin = 2e-3;
 
-error_summary errors_of(const trace_fit& fit, bool held_back) {
-    error_summary summary;
-    double all_left = 0.0;
-    double all_torque = 0.0;
-    for (std::size_t j = 0; j < fit.residual().front().size(); ++j) {
-        double left = 0.0;
-        double torque = 0.0;
-        double rows = 0.0;
-        for (std::size_t l = 0; l < fit.logs().size(); ++l) {
-            if (fit.logs()[l].held_back == held_back) {
-                left += fit.residual()[l][j].squaredNorm();
-                torque += fit.logs()[l].rows.Y[j].squaredNorm();
-                rows += static_cast<double>(fit.residual()[l][j].size());
-            }
-        }
-        summary.joints.push_back(
-            {rows > 0.0 ? std::sqrt(left / rows) : 0.0, torque > 0.0 ? std::sqrt(left / torque) : 0.0});
-        all_left += left;
-        all_torque += torque;
-    }
-    summary.relative_error = all_torque > 0.0 ? std::sqrt(all_left / all_torque) : 0.0;
-    return summary;
-}
-
-/// Share of the residual variance beyond the noise floor that an effect removes from its joints' rows held back.
+/// Share of the residual variance beyond the noise floor that an effect removes from its joints' rows held back, at the
+/// joint where that is most: an effect of the whole robot need not show at every joint.
 double explained_fraction(const trace_fit& before, const trace_fit& after, const std::vector<int>& touched,
                           const noise_floor& floor) {
-    double removed = 0.0;
-    double there = 0.0;
+    double most = -1.0;
     for (const int j : touched) {
         const auto joint = static_cast<std::size_t>(j);
+        double removed = 0.0;
+        double there = 0.0;
         for (std::size_t l = 0; l < before.logs().size(); ++l) {
             if (!before.logs()[l].held_back) {
                 continue;
             }
-            const double weight = 1.0 / (before.noise().moving[j] * before.noise().moving[j]);
-            const double first = weight * before.residual()[l][joint].squaredNorm();
-            removed += first - weight * after.residual()[l][joint].squaredNorm();
+            const double first = before.residual()[l][joint].squaredNorm();
+            removed += first - after.residual()[l][joint].squaredNorm();
             there += first;
             if (floor.rms.size() > 0) {
                 const double noise =
                     floor.rms[j] * floor.rms[j] * static_cast<double>(before.residual()[l][joint].size());
-                there -= weight * std::min(noise, before.residual()[l][joint].squaredNorm());
+                there -= std::min(noise, first);
             }
         }
+        most = std::max(most, there > 0.0 ? std::clamp(removed / there, -1.0, 1.0) : 0.0);
     }
-    return there > 0.0 ? std::clamp(removed / there, -1.0, 1.0) : 0.0;
+    return most;
 }
 
 /// Smallest values of the base parameters that make sense: those of effects' coefficients, by name.
@@ -125,6 +104,7 @@ class tracer {
         }
         find_structure(fit);
         result_.after = {errors_of(fit, false), errors_of(fit, true)};
+        result_.unsupported = find_unsupported(fit, input_);
         fill_parameters(fit);
         return std::move(result_);
     }
@@ -164,11 +144,39 @@ class tracer {
                                   &fit.noise());
     }
 
+    /// What takes a hidden effect up, by name.
+    std::string reason(const hidden_candidate& found) const {
+        constexpr std::size_t most_names = 4;
+        std::vector<std::string> names;
+        for (const Eigen::Index k : found.absorbed_by) {
+            if (k < input_.model->n_base && names.size() < most_names) {
+                names.emplace_back(input_.model->parameter_names[k]);
+            }
+        }
+        return names.empty() ? "no torque of it is left beside the terms of the model"
+                             : fmt::format("taken up by {}", fmt::join(names, ", "));
+    }
+
+    /// Effects within the span of the model, and loads that never come off, which are part of their link.
+    std::vector<hidden_effect> hidden(const effect_survey& all, const std::vector<candidate_pointer>& tried) const {
+        std::vector<hidden_effect> effects;
+        for (const hidden_candidate& found : all.within_span) {
+            effects.push_back({found.place, reason(found)});
+        }
+        for (const candidate_pointer& candidate : tried) {
+            if (!candidate->when_permanent.empty()) {
+                effects.push_back({{candidate->effect, candidate->joints, candidate->from}, candidate->when_permanent});
+            }
+        }
+        return effects;
+    }
+
     effect_survey look(const trace_fit& fit) {
         use_torques_of(fit);
-        effect_survey all = survey(fit, list_candidates(input_, fit.terms(), fit.chi()));
+        const std::vector<candidate_pointer> candidates = list_candidates(input_, fit.terms(), fit.chi());
+        effect_survey all = survey(fit, candidates);
         result_.tests = all.tests;
-        result_.not_identifiable = all.within_span;
+        result_.not_identifiable = hidden(all, candidates);
         result_.candidates.clear();
         for (const tried_candidate& tried : all.candidates) {
             const effect_evidence& evidence = tried.evidence;
@@ -222,7 +230,8 @@ class tracer {
         for (std::size_t i = static_cast<std::size_t>(fixed_); i < after.terms().size(); ++i) {
             const std::vector<linear_bound>& linear = after.terms()[i].candidate->linear;
             for (std::size_t c = 0; c < linear.size(); ++c) {
-                if (after.coefficients(i)[static_cast<Eigen::Index>(c)] < linear[c].min) {
+                const double value = after.coefficients(i)[static_cast<Eigen::Index>(c)];
+                if (value < linear[c].min || value > linear[c].max) {
                     return true;
                 }
             }
@@ -332,6 +341,9 @@ class tracer {
             for (Eigen::Index c = 0; c < values[i].value.size(); ++c) {
                 const bool linear = c < m;
                 const auto k = static_cast<std::size_t>(linear ? c : c - m);
+                if (linear && candidate.linear[k].is_nuisance) {
+                    continue;
+                }
                 const auto [value, deviation] = linear ? candidate.declared(values[i].value[c], values[i].deviation[c])
                                                        : std::pair(values[i].value[c], values[i].deviation[c]);
                 result_.steps[s].parameters.push_back({linear ? candidate.linear[k].name : candidate.shape[k].name,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "parallel.hpp"
 #include "shape_search.hpp"
@@ -22,30 +23,28 @@ constexpr double needed_z = 1.0;             ///< a term that gains less on data
 /// Torque of the effect at one joint over the fitted logs must not exceed what the joint has at all.
 bool is_plausible(const trace_fit& fit, const effect_evidence& evidence) {
     const effect_candidate& candidate = *evidence.term.candidate;
-    for (const int j : candidate.touched) {
-        double effect = 0.0;
-        double all = 0.0;
-        for (std::size_t l = 0; l < fit.logs().size(); ++l) {
-            if (fit.logs()[l].held_back) {
-                continue;
-            }
-            const auto m = static_cast<Eigen::Index>(candidate.linear.size());
-            const Eigen::Index place = candidate.per_log ? m * static_cast<Eigen::Index>(l) : 0;
-            effect += (candidate.rows(fit.logs()[l], j, evidence.term.shape) * evidence.coefficient.segment(place, m))
-                          .squaredNorm();
-            all += fit.logs()[l].rows.Y[static_cast<std::size_t>(j)].squaredNorm();
+    const auto m = static_cast<Eigen::Index>(candidate.linear.size());
+    std::vector<double> effect(candidate.touched.size(), 0.0);
+    std::vector<double> all = effect;
+    for (std::size_t l = 0; l < fit.logs().size(); ++l) {
+        if (fit.logs()[l].held_back) {
+            continue;
         }
-        if (effect > all) {
-            return false;
+        const Eigen::Index place = candidate.per_log ? m * static_cast<Eigen::Index>(l) : 0;
+        const std::vector<Eigen::MatrixXd> rows = candidate.touched_rows(fit.logs()[l], evidence.term.shape);
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            effect[k] += (rows[k] * evidence.coefficient.segment(place, m)).squaredNorm();
+            all[k] += fit.logs()[l].rows.Y[static_cast<std::size_t>(candidate.touched[k])].squaredNorm();
         }
     }
-    return true;
+    return std::equal(effect.begin(), effect.end(), all.begin(), std::less_equal<>());
 }
 
 bool is_negligible(const effect_evidence& evidence) {
     const std::vector<linear_bound>& linear = evidence.term.candidate->linear;
     for (std::size_t c = 0; c < linear.size(); ++c) {
-        if (std::abs(evidence.coefficient[static_cast<Eigen::Index>(c)]) >= linear[c].negligible) {
+        if (!linear[c].is_nuisance &&
+            std::abs(evidence.coefficient[static_cast<Eigen::Index>(c)]) >= linear[c].negligible) {
             return false;
         }
     }
@@ -68,6 +67,19 @@ bool raises_an_error(const trace_fit& fit, const effect_evidence& evidence) {
     const std::vector<int>& joints = evidence.term.candidate->joints;
     for (std::size_t l = 0; l < left.size(); ++l) {
         if (fit.logs()[l].held_back && squared_error(left[l], joints) > squared_error(fit.residual()[l], joints)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Whether a searched shape lies at an end of its range: there the search has found none.
+bool is_at_end_of_range(const effect_term& term) {
+    constexpr double near = 5e-3;  // of the bound: golden section comes to a thousandth of a grid step
+    for (std::size_t s = 0; s < term.candidate->shape.size(); ++s) {
+        const shape_bound& bound = term.candidate->shape[s];
+        const double value = term.shape[static_cast<Eigen::Index>(s)];
+        if (value <= bound.low + near * std::abs(bound.low) || value >= bound.high - near * std::abs(bound.high)) {
             return true;
         }
     }
@@ -98,6 +110,9 @@ std::string objection_to(const trace_fit& fit, const tried_candidate& tried) {
     }
     if (is_negligible(evidence)) {
         return "smaller than what sampling makes";
+    }
+    if (is_at_end_of_range(evidence.term)) {
+        return "its shape lies at the end of the range searched";
     }
     if (!is_plausible(fit, evidence)) {
         return "larger than the torque of its joint";
@@ -134,6 +149,37 @@ Eigen::VectorXd prediction_of(const trace_fit& fit, const log_series& left) {
     return Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
+double weighted_norm(const trace_fit& fit, Eigen::Index column) {
+    double sum = 0.0;
+    for (std::size_t l = 0; l < fit.logs().size(); ++l) {
+        for (std::size_t j = 0; j < fit.weight()[l].size() && !fit.logs()[l].held_back; ++j) {
+            sum += fit.columns(l, static_cast<int>(j)).col(column).cwiseProduct(fit.weight()[l][j]).squaredNorm();
+        }
+    }
+    return std::sqrt(sum);
+}
+
+/// Columns of the fit whose combination the candidate's columns are: those that bring more than a hundredth of it.
+std::vector<Eigen::Index> absorbing_columns(const trace_fit& fit, const effect_evidence& evidence) {
+    constexpr double least_share = 0.01;
+    const projected_columns columns = fit.project(*evidence.term.candidate, evidence.term.shape, false);
+    Eigen::VectorXd share = Eigen::VectorXd::Zero(fit.all_coefficients().size());
+    for (Eigen::Index c = 0; c < columns.on_basis.cols(); ++c) {
+        if (columns.scale[c] > 0.0) {
+            share += fit.basis_times(columns.on_basis.col(c)).cwiseAbs() / columns.scale[c];
+        }
+    }
+    std::vector<Eigen::Index> found;
+    for (Eigen::Index k = 0; k < share.size(); ++k) {
+        share[k] *= weighted_norm(fit, k);
+        if (share[k] > least_share) {
+            found.push_back(k);
+        }
+    }
+    std::sort(found.begin(), found.end(), [&](Eigen::Index a, Eigen::Index b) { return share[a] > share[b]; });
+    return found;
+}
+
 trace_fit without(const trace_fit& fit, std::size_t term) {
     std::vector<effect_term> terms = fit.terms();
     terms.erase(terms.begin() + static_cast<std::ptrdiff_t>(term));
@@ -163,7 +209,8 @@ effect_survey survey(const trace_fit& fit, const std::vector<candidate_pointer>&
     });
     for (const tried_candidate& tried : result.candidates) {
         if (tried.evidence.within_span) {
-            result.within_span.push_back(place_of(*tried.evidence.term.candidate));
+            result.within_span.push_back(
+                {place_of(*tried.evidence.term.candidate), absorbing_columns(fit, tried.evidence)});
         }
     }
     std::stable_sort(result.candidates.begin(), result.candidates.end(), ranks_before);

@@ -17,11 +17,17 @@ struct tried_candidate {
     std::string objection;  ///< why it is not accepted; empty if it is
 };
 
+/// A candidate whose columns are combinations of the model's own.
+struct hidden_candidate {
+    effect_place place;
+    std::vector<Eigen::Index> absorbed_by;  ///< columns of the fit that take it up, most of it first
+};
+
 /// One look at the residual: every candidate, most likely first.
 struct effect_survey {
     std::vector<tried_candidate> candidates;
-    std::vector<effect_place> within_span;  ///< no residual of this motion can show them
-    double tests = 0.0;                     ///< candidates and shapes tried
+    std::vector<hidden_candidate> within_span;  ///< no residual of this motion can show them
+    double tests = 0.0;                         ///< candidates and shapes tried
 };
 
 /// Tries every candidate against the residual of `fit`.

@@ -3,11 +3,12 @@
 #include <vector>
 
 #include "effect_candidate.hpp"
+#include "idim/effect_trace.hpp"
 #include "idim/model_interface.h"
 
 namespace idim {
 
-/// The torque of joint j measured late by Td: the column is the secant (tau(t - at) - tau(t)) / at of the present
+/// The torque of joint j measured late by Td >= 0: the column is the secant (tau(t - at) - tau(t)) / at of the present
 /// model's torque, its coefficient Td. A delay below the sampling period of the log tells of the sampling, not of the
 /// robot.
 candidate_pointer delay_candidate(int joint, double at, double period);
@@ -23,6 +24,13 @@ candidate_pointer gain_candidate(int joint);
 /// column is the secant in c of the rigid links' torques at all joints.
 candidate_pointer elasticity_candidate(const idim_model_interface& model, const Eigen::VectorXd& chi, int joint,
                                        double at);
+
+/// Gravity turned about each axis that it is not along: the columns are the changes of the gravity torques per radian,
+/// from the models with gravity turned. Where the present parameters do not tell what gravity then shows (first moments
+/// about an upright axis), columns of these moments stand beside them, to be fitted and not reported. Null where there
+/// is no such axis.
+candidate_pointer tilt_candidate(const idim_model_interface& model, const std::vector<turned_model>& turned,
+                                 const Eigen::VectorXd& chi);
 
 /// Ten inertial parameters at the link of joint j from t0 to t1 of a log.
 candidate_pointer payload_candidate(const idim_model_interface& model, int joint);

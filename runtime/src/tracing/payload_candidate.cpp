@@ -1,41 +1,15 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
 #include <string>
 #include <utility>
 
+#include "link_parameters.hpp"
 #include "model_candidates.hpp"
 #include "trace_fit.hpp"
 
 namespace idim {
 
 namespace {
-
-constexpr std::array<const char*, 10> inertial = {"XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M"};
-constexpr std::array<const char*, 10> inertial_units = {"kg*m^2", "kg*m^2", "kg*m^2", "kg*m^2", "kg*m^2",
-                                                        "kg*m^2", "kg*m",   "kg*m",   "kg*m",   "kg"};
-
-/// Base parameters per unit of each of the ten standard parameters of one link, b x 10; zero columns where the robot
-/// has no such parameter.
-Eigen::MatrixXd regrouping_of(const idim_model_interface& model, int joint) {
-    Eigen::MatrixXd B = Eigen::MatrixXd::Zero(model.n_base, 10);
-    Eigen::VectorXd none = Eigen::VectorXd::Zero(model.n_base);
-    Eigen::VectorXd standard = Eigen::VectorXd::Zero(model.n_standard);
-    model.regroup(standard.data(), none.data());
-    for (std::size_t c = 0; c < inertial.size(); ++c) {
-        const std::string name = inertial[c] + std::to_string(joint + 1);
-        for (int s = 0; s < model.n_standard; ++s) {
-            if (name == model.standard_names[s]) {
-                standard.setZero();
-                standard[s] = 1.0;
-                Eigen::VectorXd base(model.n_base);
-                model.regroup(standard.data(), base.data());
-                B.col(static_cast<Eigen::Index>(c)) = base - none;
-            }
-        }
-    }
-    return B;
-}
 
 /// Ten columns that are nearly the model's own would take any size: what an interval leaves outside the span is more.
 constexpr double least_of_a_load = 1e-2;
@@ -94,16 +68,18 @@ double gain_between(const running_sums& sums, std::size_t from, std::size_t to) 
 
 class part_time_load final : public effect_candidate {
   public:
-    part_time_load(const idim_model_interface& model, int joint) : B_(regrouping_of(model, joint)) {
+    part_time_load(const idim_model_interface& model, int joint)
+        : B_(link_columns(model, regrouping_of(model), joint)) {
         effect = "payload";
         joints = {joint};
         for (int j = 0; j < model.dof; ++j) {
             touched.push_back(j);
         }
-        for (std::size_t c = 0; c < inertial.size(); ++c) {
-            linear.push_back({"P" + std::string(inertial[c]), inertial_units[c]});
+        for (std::size_t c = 0; c < inertial_names.size(); ++c) {
+            linear.push_back({"P" + std::string(inertial_names[c]), inertial_units[c]});
         }
         least_outside = least_of_a_load;
+        when_permanent = "a load that never comes off is part of the link; a log with it and one without would show it";
         shape = {{"t0", "s", -1e9, 1e9}, {"t1", "s", -1e9, 1e9}};
     }
 

@@ -34,10 +34,6 @@ Eigen::Index width(const effect_term& term, const std::vector<traced_log>& logs)
     return term.candidate->per_log ? m * static_cast<Eigen::Index>(logs.size()) : m;
 }
 
-bool touches(const effect_candidate& candidate, int joint) {
-    return std::find(candidate.touched.begin(), candidate.touched.end(), joint) != candidate.touched.end();
-}
-
 }  // namespace
 
 trace_fit::trace_fit(const std::vector<traced_log>& logs, std::vector<effect_term> terms, row_noise noise)
@@ -53,24 +49,25 @@ void trace_fit::build_columns() {
         first_.push_back(total);
         total += width(term, *logs_);
     }
-    const int joints = static_cast<int>(logs_->front().rows.W.size());
     columns_.resize(logs_->size());
     weight_.resize(logs_->size());
     for (std::size_t l = 0; l < logs_->size(); ++l) {
-        for (int j = 0; j < joints; ++j) {
-            const Eigen::MatrixXd& W = (*logs_)[l].rows.W[static_cast<std::size_t>(j)];
+        const traced_log& log = (*logs_)[l];
+        for (std::size_t j = 0; j < log.rows.W.size(); ++j) {
+            const Eigen::MatrixXd& W = log.rows.W[j];
             Eigen::MatrixXd all = Eigen::MatrixXd::Zero(W.rows(), total);
             all.leftCols(base_) = W;
-            for (std::size_t i = 0; i < terms_.size(); ++i) {
-                const effect_candidate& candidate = *terms_[i].candidate;
-                if (touches(candidate, j)) {
-                    const auto m = static_cast<Eigen::Index>(candidate.linear.size());
-                    const Eigen::Index place = first_[i] + (candidate.per_log ? m * static_cast<Eigen::Index>(l) : 0);
-                    all.middleCols(place, m) = candidate.rows((*logs_)[l], j, terms_[i].shape);
-                }
-            }
             columns_[l].push_back(std::move(all));
-            weight_[l].push_back(weights_of((*logs_)[l], j, noise_));
+            weight_[l].push_back(weights_of(log, static_cast<int>(j), noise_));
+        }
+        for (std::size_t i = 0; i < terms_.size(); ++i) {
+            const effect_candidate& candidate = *terms_[i].candidate;
+            const auto m = static_cast<Eigen::Index>(candidate.linear.size());
+            const Eigen::Index place = first_[i] + (candidate.per_log ? m * static_cast<Eigen::Index>(l) : 0);
+            const std::vector<Eigen::MatrixXd> X = candidate.touched_rows(log, terms_[i].shape);
+            for (std::size_t k = 0; k < X.size(); ++k) {
+                columns_[l][static_cast<std::size_t>(candidate.touched[k])].middleCols(place, m) = X[k];
+            }
         }
     }
 }
@@ -153,10 +150,14 @@ projected_columns trace_fit::project(const effect_candidate& candidate, const Ei
             continue;
         }
         const Eigen::Index place = candidate.per_log ? m * static_cast<Eigen::Index>(l) : 0;
-        for (const int j : candidate.touched) {
-            const auto joint = static_cast<std::size_t>(j);
+        std::vector<Eigen::MatrixXd> exact;
+        if (!quick) {
+            exact = candidate.touched_rows((*logs_)[l], shape);
+        }
+        for (std::size_t k = 0; k < candidate.touched.size(); ++k) {
+            const auto joint = static_cast<std::size_t>(candidate.touched[k]);
             Eigen::MatrixXd X =
-                quick ? candidate.quick_rows((*logs_)[l], j, shape) : candidate.rows((*logs_)[l], j, shape);
+                quick ? candidate.quick_rows((*logs_)[l], candidate.touched[k], shape) : std::move(exact[k]);
             X = weight_[l][joint].asDiagonal() * X;
             found.on_basis.middleCols(place, m) += basis_[l][joint].transpose() * X;
             gram.block(place, place, m, m) += X.transpose() * X;
@@ -182,22 +183,28 @@ projected_columns trace_fit::project(const effect_candidate& candidate, const Ei
     return found;
 }
 
-Eigen::VectorXd trace_fit::residual_with(const effect_candidate& candidate, const Eigen::VectorXd& shape,
-                                         const projected_columns& columns, std::size_t log, int joint) const {
-    const auto j = static_cast<std::size_t>(joint);
+std::vector<Eigen::VectorXd> trace_fit::residual_with(const effect_candidate& candidate, const Eigen::VectorXd& shape,
+                                                      const projected_columns& columns, std::size_t log) const {
     const auto m = static_cast<Eigen::Index>(candidate.linear.size());
-    Eigen::VectorXd left =
-        residual_[log][j] + columns_[log][j] * (basis_scale_ * (columns.on_basis * columns.coefficient));
-    if (!touches(candidate, joint)) {
-        return left;
+    const Eigen::VectorXd moved = basis_scale_ * (columns.on_basis * columns.coefficient);
+    std::vector<Eigen::VectorXd> left;
+    for (std::size_t j = 0; j < residual_[log].size(); ++j) {
+        left.emplace_back(residual_[log][j] + columns_[log][j] * moved);
     }
-    const Eigen::MatrixXd X = candidate.rows((*logs_)[log], joint, shape);
-    if (candidate.per_log && (*logs_)[log].held_back) {
-        const Eigen::MatrixXd weighted = weight_[log][j].asDiagonal() * X;
-        return left - X * weighted.colPivHouseholderQr().solve(weight_[log][j].cwiseProduct(left));
-    }
+    const std::vector<Eigen::MatrixXd> rows = candidate.touched_rows((*logs_)[log], shape);
     const Eigen::Index place = candidate.per_log ? m * static_cast<Eigen::Index>(log) : 0;
-    return left - X * columns.coefficient.segment(place, m);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        const auto j = static_cast<std::size_t>(candidate.touched[k]);
+        Eigen::VectorXd coefficient;
+        if (candidate.per_log && (*logs_)[log].held_back) {
+            const Eigen::MatrixXd weighted = weight_[log][j].asDiagonal() * rows[k];
+            coefficient = weighted.colPivHouseholderQr().solve(weight_[log][j].cwiseProduct(left[j]));
+        } else {
+            coefficient = columns.coefficient.segment(place, m);
+        }
+        left[j] -= rows[k] * coefficient;
+    }
+    return left;
 }
 
 row_noise trace_fit::estimated_noise() const {
@@ -243,6 +250,30 @@ trace_fit fit_with_own_noise(const std::vector<traced_log>& logs, const std::vec
         noise = trace_fit(logs, terms, noise).estimated_noise();
     }
     return trace_fit(logs, terms, noise);
+}
+
+error_summary errors_of(const trace_fit& fit, bool held_back) {
+    error_summary summary;
+    double all_left = 0.0;
+    double all_torque = 0.0;
+    for (std::size_t j = 0; j < fit.residual().front().size(); ++j) {
+        double left = 0.0;
+        double torque = 0.0;
+        double rows = 0.0;
+        for (std::size_t l = 0; l < fit.logs().size(); ++l) {
+            if (fit.logs()[l].held_back == held_back) {
+                left += fit.residual()[l][j].squaredNorm();
+                torque += fit.logs()[l].rows.Y[j].squaredNorm();
+                rows += static_cast<double>(fit.residual()[l][j].size());
+            }
+        }
+        summary.joints.push_back(
+            {rows > 0.0 ? std::sqrt(left / rows) : 0.0, torque > 0.0 ? std::sqrt(left / torque) : 0.0});
+        all_left += left;
+        all_torque += torque;
+    }
+    summary.relative_error = all_torque > 0.0 ? std::sqrt(all_left / all_torque) : 0.0;
+    return summary;
 }
 
 }  // namespace idim

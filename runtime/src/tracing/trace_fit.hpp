@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "effect_candidate.hpp"
+#include "idim/estimate.hpp"
 #include "traced_log.hpp"
 
 namespace idim {
@@ -55,9 +56,9 @@ class trace_fit {
 
     /// Columns of a candidate, `quick` for those without low-pass.
     projected_columns project(const effect_candidate& candidate, const Eigen::VectorXd& shape, bool quick) const;
-    /// Residual of log l at `joint` once the columns were added and everything fitted again.
-    Eigen::VectorXd residual_with(const effect_candidate& candidate, const Eigen::VectorXd& shape,
-                                  const projected_columns& columns, std::size_t log, int joint) const;
+    /// Residual of log l at every joint once the columns were added and everything fitted again.
+    std::vector<Eigen::VectorXd> residual_with(const effect_candidate& candidate, const Eigen::VectorXd& shape,
+                                               const projected_columns& columns, std::size_t log) const;
 
     /// Deviations of the residual as this fit leaves it, for the next one.
     row_noise estimated_noise() const;
@@ -102,5 +103,8 @@ class trace_fit {
 /// Fits again until the deviations of the rows settle.
 trace_fit fit_with_own_noise(const std::vector<traced_log>& logs, const std::vector<effect_term>& terms,
                              const row_noise* start = nullptr);
+
+/// Errors over the logs that were fitted, or over those held back.
+error_summary errors_of(const trace_fit& fit, bool held_back);
 
 }  // namespace idim
