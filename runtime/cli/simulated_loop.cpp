@@ -7,6 +7,7 @@
 #include <memory>
 #include <numbers>
 
+#include "declared_law.hpp"
 #include "description/robot_description.hpp"
 #include "idim/control_law.hpp"
 #include "idim/input_error.hpp"
