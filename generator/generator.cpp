@@ -39,6 +39,11 @@ base_report report(const robot_model& model) {
     for (const std::size_t p : model.base.without_effect) {
         result.without_effect.push_back(model.parameters.all[p].name);
     }
+    for (const standard_parameter& p : model.parameters.all) {
+        const int inertial = p.kind == parameter_kind::effect ? -1 : static_cast<int>(p.kind);
+        result.standard_parameters.push_back(
+            {p.name, p.unit, model.tree.joints[static_cast<std::size_t>(p.joint)].name, inertial, p.gate, p.min});
+    }
     const rank_evidence& evidence = model.base.evidence;
     result.standard = model.base.standard;
     result.qr_rank = evidence.qr_rank;

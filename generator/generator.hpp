@@ -14,10 +14,20 @@
 /// template context -> files. No GiNaC here, so that users of this header do not see it.
 namespace idim::generator {
 
+/// A standard parameter, in the order of the models' standard_parameter_names.
+struct standard_report {
+    std::string name, unit;
+    std::string joint;  ///< whose link or effect it belongs to
+    int inertial = -1;  ///< 0..9: XX XY XZ YY YZ ZZ MX MY MZ M of a link or payload; -1: coefficient of an effect
+    int payload = -1;   ///< of a payload: which time it is on for
+    std::optional<double> min;  ///< smallest value of a coefficient
+};
+
 struct base_report {
     std::string robot;
     std::vector<parameter_context> parameters;
     int standard = 0;
+    std::vector<standard_report> standard_parameters;
     std::vector<std::string> without_effect;
     std::vector<std::string> notes;  ///< what a user should know of how the description was read
     int qr_rank = 0;

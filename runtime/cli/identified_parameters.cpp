@@ -71,6 +71,22 @@ std::optional<filter_choice> filter_of(const YAML::Node& root) {
 
 }  // namespace
 
+std::map<std::string, double> read_standard_parameters(const std::string& file) {
+    const YAML::Node root = read_root(file);
+    const YAML::Node consistency = root["consistency"];
+    if (!consistency || !consistency.IsMap()) {
+        return values_of(root["standard_parameters"] ? root["standard_parameters"] : root, file);
+    }
+    std::map<std::string, double> values;
+    for (const YAML::Node& entry : consistency["standard_parameters"]) {
+        double value = NAN;  // null where it moves no torque
+        if (YAML::convert<double>::decode(entry["value"], value)) {
+            values[entry["name"].as<std::string>()] = value;
+        }
+    }
+    return values;
+}
+
 identified_parameters read_parameters(const std::string& file, const loaded_robot& robot) {
     const YAML::Node root = read_root(file);
     std::map<std::string, double> values = values_of(root, file);

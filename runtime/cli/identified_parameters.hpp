@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -18,5 +19,8 @@ struct identified_parameters {
 /// Throws input_error where the file cannot be read, a base parameter of the robot is missing, or one is named that the
 /// robot does not have.
 identified_parameters read_parameters(const std::string& file, const loaded_robot& robot);
+
+/// Standard parameters: those of a result of `identify --method cwls`, else the values of the file as they stand.
+std::map<std::string, double> read_standard_parameters(const std::string& file);
 
 }  // namespace idim::cli

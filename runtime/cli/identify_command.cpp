@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "consistency_report.hpp"
 #include "identification.hpp"
 #include "identified_parameters.hpp"
 #include "idim/estimate.hpp"
@@ -24,11 +25,31 @@ struct identify_options {
     std::string json_file;
 };
 
-void print_parameters(const identification& found) {
+bool is_at_bound(const method_result& by, Eigen::Index k) {
+    return by.consistent && by.consistent->at_bound[static_cast<std::size_t>(k)];
+}
+
+/// A parameter that active constraints hold has no deviation.
+void flag_bounds(json& parameters, const consistent_estimate& found) {
+    for (std::size_t k = 0; k < parameters.size(); ++k) {
+        parameters[k]["at_bound"] = static_cast<bool>(found.at_bound[k]);
+        if (found.at_bound[k]) {
+            parameters[k]["std"] = nullptr;
+            parameters[k]["relative_std_percent"] = nullptr;
+        }
+    }
+}
+
+void print_parameters(const identification& found, const method_result& by) {
     const Eigen::VectorXd std = found.result.deviations();
     fmt::print("  {:<10} {:>13} {:>11} {:>8}  {}\n", "parameter", "value", "std", "%", "unit");
     for (Eigen::Index k = 0; k < found.result.chi.size(); ++k) {
         const auto& parameter = parameter_of(found.robot, found.rows, k);
+        if (is_at_bound(by, k)) {
+            fmt::print("  {:<10} {:>13.6g} {:>11} {:>8}  {}\n", name_of(found.robot, found.rows, k),
+                       found.result.chi[k], "at bound", "", parameter.unit);
+            continue;
+        }
         fmt::print("  {:<10} {:>13.6g} {:>11.3g} {:>8.2f}  {}\n", name_of(found.robot, found.rows, k),
                    found.result.chi[k], std[k], relative_percent(std[k], found.result.chi[k]), parameter.unit);
     }
@@ -50,11 +71,14 @@ void print_identification(const identification& found, const method_result& by) 
                by.method, result.samples, result.condition_number, result.scaled_condition_number);
     fmt::print("  {}\n", found.filter.reason);
     print_iterations(by, found.robot);
-    print_parameters(found);
+    print_parameters(found, by);
     print(result.residual, found.robot);
     fmt::print("  residual correlated over {:.1f} rows (by joint); the deviations account for it\n",
                fmt::join(result.correlation_length, " "));
     print_tests(by, found.robot);
+    if (by.consistent) {
+        print_consistency(*by.consistent);
+    }
     if (has_essential(found)) {
         print_essential(found);
     }
@@ -131,11 +155,16 @@ int run(const identify_options& options) {
     const method_result by = runner.run(options.method, rows);
     essential_parameters essential;
     // The F test behind it supposes least squares on these rows.
-    if (by.fit.chi.size() > 0 && !simulates(options.method)) {
+    if (by.fit.chi.size() > 0 && !simulates(options.method) && !by.consistent) {
         essential = find_essential(rows, by.fit);
     }
     const identification found{robot, filter, std::move(rows), by.fit, std::move(essential)};
     json content = to_json(found, options.method);
+    content["description"] = options.robot;
+    if (by.consistent) {
+        content["consistency"] = to_json(*by.consistent, robot);
+        flag_bounds(content["parameters"], *by.consistent);
+    }
     content["iterations"] = iterations_json(by.fit, robot);
     content["loop"] = loop_json(by);
     content["tests"] = tests_json(by, robot);
@@ -164,10 +193,10 @@ void add_identify_command(CLI::App& app, action& chosen) {
     command->add_option("robot", options->robot, "robot description (.yaml, .urdf)")->required();
     command->add_option("logs", options->logs, "logs (.csv, .csv.gz)")->required();
     command
-        ->add_option(
-            "--method", options->method,
-            "least squares: ols, wls (default), irls (robust), tls (total); with the closed loop simulated: iv "
-            "(instrumental variable), didim (output error on the torque), cloe (on the position)")
+        ->add_option("--method", options->method,
+                     "least squares: ols, wls (default), irls (robust), tls (total), cwls (wls with consistent links); "
+                     "with the closed loop simulated: iv "
+                     "(instrumental variable), didim (output error on the torque), cloe (on the position)")
         ->check(CLI::IsMember(method_names()));
     command->add_flag("--compare", options->compare, "all methods on the same rows, in one table");
     command->add_option("--start", options->simulation.start,
@@ -182,6 +211,7 @@ void add_identify_command(CLI::App& app, action& chosen) {
     command->add_flag("--correct-processing", options->simulation.options.corrects_processing,
                       "take off what sampling and filters do to the torque of the simulation; not for cloe");
     add_loop_options(*command, options->simulation.loop);
+    add_consistency_options(*command, options->simulation.consistency);
     add_filter_options(*command, options->filter);
     command->add_option("--truth", options->truth, "parameters that were simulated, to compare with");
     add_json_option(*command, options->json_file);

@@ -49,6 +49,7 @@ int main(int argc, char** argv) {
     add_validate_command(app, chosen);
     add_diagnose_command(app, chosen);
     add_refine_command(app, chosen);
+    add_export_command(app, chosen);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& asked) {

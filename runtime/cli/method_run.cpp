@@ -36,7 +36,7 @@ Eigen::VectorXd physical_or_regular(const idim_model_interface& model, const Eig
 }  // namespace
 
 const std::vector<std::string>& method_names() {
-    static const std::vector<std::string> names = {"ols", "wls", "irls", "tls", "iv", "didim", "cloe"};
+    static const std::vector<std::string> names = {"ols", "wls", "irls", "tls", "cwls", "iv", "didim", "cloe"};
     return names;
 }
 
@@ -100,7 +100,12 @@ loop_estimate method_runner::simulate(const std::string& method, const observati
 method_result method_runner::run(const std::string& method, const observation& rows) {
     method_result result;
     result.method = method;
-    if (!simulates(method)) {
+    if (method == "cwls") {
+        const physical_parameters known = physical_parameters_of(robot_);
+        result.consistent =
+            consistent_fit(robot_.model(), rows, known, request_of(request_.consistency, robot_, known));
+        result.fit = result.consistent->fit;
+    } else if (!simulates(method)) {
         result.fit = without_simulation(method, rows);
     } else {
         start_point start = start_for(rows);

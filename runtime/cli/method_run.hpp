@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "consistency_options.hpp"
 #include "idim/instrument_test.hpp"
 #include "idim/loop_identification.hpp"
 #include "idim/residual_test.hpp"
@@ -22,16 +23,18 @@ struct method_request {
     loop_request loop;
     std::string start = "ls";  ///< ls, regular, or a file of parameters
     loop_options options;
+    consistency_options consistency;  ///< of cwls
 };
 
 /// What one method made of the rows.
 struct method_result {
     std::string method;
     estimate fit;
-    std::vector<residual_test> residual;         ///< per joint; empty without parameters
-    std::optional<instrument_test> instruments;  ///< of iv
-    std::string start;                           ///< where the iterations began, one phrase; empty without simulation
-    std::string assumption;                      ///< of the control law; empty if the declared one was simulated
+    std::vector<residual_test> residual;                 ///< per joint; empty without parameters
+    std::optional<instrument_test> instruments;          ///< of iv
+    std::optional<consistent_estimate> consistent = {};  ///< of cwls
+    std::string start;       ///< where the iterations began, one phrase; empty without simulation
+    std::string assumption;  ///< of the control law; empty if the declared one was simulated
 };
 
 /// Runs methods on the logs of one robot. What it is given must outlive it.

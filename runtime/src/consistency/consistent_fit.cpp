@@ -1,0 +1,199 @@
+#include "idim/consistent_fit.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <cmath>
+#include <utility>
+
+#include "consistency/consistency_program.hpp"
+#include "sandwich.hpp"
+#include "weighted_fit.hpp"
+
+namespace idim {
+
+namespace {
+
+constexpr double relative_gap = 1e-8;
+constexpr int scanned_configurations = 100000;
+// A constraint is active if relaxing it by the scale of its parameters would lower the objective by more than this
+// part.
+constexpr double active_share = 1e-5;
+constexpr double held_share = 1e-3;
+
+/// R [columns x (s + columns of single logs)]: the parameters of the columns of `rows` from the standard parameters
+/// and, behind them, those that single logs have of their own.
+Eigen::MatrixXd regrouping_of(const idim_model_interface& model, const observation& rows) {
+    const Eigen::Index s = model.n_standard;
+    const Eigen::Index own = rows.n_base - model.n_base;
+    Eigen::MatrixXd R = Eigen::MatrixXd::Zero(rows.n_base, s + own);
+    for (Eigen::Index k = 0; k < s; ++k) {
+        const Eigen::VectorXd unit = Eigen::VectorXd::Unit(s, k);
+        Eigen::VectorXd chi(model.n_base);
+        model.regroup(unit.data(), chi.data());
+        R.col(k).head(model.n_base) = chi;
+    }
+    R.bottomRightCorner(own, own).setIdentity();
+    return R;
+}
+
+parameter_scale scale_of(const Eigen::VectorXd& standard, const physical_parameters& known) {
+    Eigen::VectorXd others = standard.cwiseAbs();
+    parameter_scale scale{0.0, 0.0};
+    for (const inertial_body& body : known.bodies) {
+        scale.inertial = std::max(scale.inertial, body.of(standard).cwiseAbs().maxCoeff());
+        others(body.places).setZero();
+    }
+    scale.coefficient = others.size() > 0 ? others.maxCoeff() : 0.0;
+    // A robot whose parameters are all zero still needs a scale.
+    scale.inertial = scale.inertial > 0.0 ? scale.inertial : 1.0;
+    scale.coefficient = scale.coefficient > 0.0 ? scale.coefficient : 1.0;
+    return scale;
+}
+
+/// Coefficients that move a torque: nothing bounds the others from above.
+physical_parameters with_effect_only(physical_parameters known, const Eigen::MatrixXd& R) {
+    std::erase_if(known.coefficients, [&R](const auto& bound) { return R.col(bound.place).isZero(0.0); });
+    return known;
+}
+
+std::vector<consistent_body> describe(const physical_parameters& known, const Eigen::VectorXd& standard) {
+    std::vector<consistent_body> bodies;
+    for (const inertial_body& body : known.bodies) {
+        const body_parameters p = body.of(standard);
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> central(central_inertia(p), Eigen::EigenvaluesOnly);
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> pseudo(pseudo_inertia(p), Eigen::EigenvaluesOnly);
+        bodies.push_back({body.name, p[9], p.segment<3>(6) / p[9], central.eigenvalues()[0], pseudo.eigenvalues()[0]});
+    }
+    return bodies;
+}
+
+std::vector<active_constraint> active_of(const cone_program& program, const cone_solution& solution,
+                                         const parameter_scale& scale) {
+    std::vector<active_constraint> active;
+    const double objective = std::max(solution.objective, 1e-12 * 0.5 * program.b.squaredNorm());
+    for (std::size_t k = 0; k < program.matrices.size(); ++k) {
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(solution.multipliers[k], Eigen::EigenvaluesOnly);
+        const Eigen::VectorXd& prices = eigen.eigenvalues();
+        const auto held = (prices.array() * scale.inertial > active_share * objective).count();
+        if (held > 0) {
+            active.push_back(
+                {fmt::format("{}: {} of {} eigenvalues at the floor", program.matrices[k].name, held, prices.size()),
+                 prices.maxCoeff()});
+        }
+    }
+    for (std::size_t k = 0; k < program.bounds.size(); ++k) {
+        const linear_constraint& bound = program.bounds[k];
+        const double size = bound.reference > 0.0 ? bound.reference : scale.inertial;
+        if (solution.prices[k] * size > active_share * objective) {
+            active.push_back({bound.name, solution.prices[k]});
+        }
+    }
+    return active;
+}
+
+/// Fills the deviations of a constrained estimate: `carried` is its derivative by that of weighted least squares in the
+/// coordinates of the orthonormal columns of the weighted W.
+void add_carried_deviations(const observation& rows, const std::vector<double>& joint_weight,
+                            const Eigen::MatrixXd& inverse, const Eigen::MatrixXd& carried, estimate& fit) {
+    const joint_series score = scaled(residuals(rows, fit.chi), joint_weight);
+    sandwich robust = robust_covariance(rows, joint_weight, inverse, carried, score);
+    fit.covariance = std::move(robust.covariance);
+    fit.correlation_length = std::move(robust.correlation_length);
+    double sum = 0.0;
+    for (const std::vector<Eigen::VectorXd>& segments : score) {
+        for (const Eigen::VectorXd& segment : segments) {
+            sum += segment.squaredNorm();
+        }
+    }
+    fit.std_white = std::sqrt(sum / static_cast<double>(rows.rows() - rows.n_base)) * carried.rowwise().norm();
+}
+
+void set_objective(cone_program& program, consistency_objective objective, const stacked_qr& qr,
+                   const Eigen::MatrixXd& R, double remaining) {
+    const Eigen::MatrixXd S = qr.R * qr.column_norm.asDiagonal();
+    if (objective == consistency_objective::weighted) {
+        program.A = S * R;
+        program.b = qr.z;
+        program.constant = remaining;
+    } else {
+        program.A = S.transpose() * (S * R);
+        program.b = S.transpose() * qr.z;
+    }
+}
+
+}  // namespace
+
+consistent_estimate consistent_fit(const idim_model_interface& model, const observation& rows,
+                                   const physical_parameters& known_all, const consistency_request& request) {
+    consistent_estimate result;
+    const std::vector<double> unweighted(static_cast<std::size_t>(rows.dof), 1.0);
+    const estimate ordinary = solve_weighted(rows, unweighted).fit;
+    if (ordinary.chi.size() == 0) {
+        result.fit = ordinary;
+        return result;
+    }
+    const std::vector<double> weight = weights_of(ordinary.joint_deviation);
+    weighted_solution weighted = solve_weighted(rows, weight);
+    result.fit = weighted.fit;
+    if (weighted.fit.chi.size() == 0) {
+        return result;
+    }
+    result.unconstrained = weighted_fit(rows, weight);
+    double remaining = 0.0;
+    for (const auto& segments : scaled(residuals(rows, weighted.fit.chi), weight)) {
+        for (const Eigen::VectorXd& segment : segments) {
+            remaining += 0.5 * segment.squaredNorm();
+        }
+    }
+
+    const Eigen::MatrixXd R = regrouping_of(model, rows);
+    const physical_parameters known = with_effect_only(known_all, R);
+    const Eigen::VectorXd least = R.completeOrthogonalDecomposition().solve(weighted.fit.chi);
+    const parameter_scale scale = scale_of(least, known);
+    std::vector<std::string> names(model.standard_names, model.standard_names + model.n_standard);
+    names.resize(static_cast<std::size_t>(R.cols()));
+    consistency_program problem = constrain(known, request, scale, names);
+    set_objective(problem.program, request.objective, weighted.qr, R, remaining);
+    const cone_solution solution = solve(problem.program, problem.start, relative_gap);
+
+    result.standard = solution.x.head(model.n_standard);
+    for (const auto& bound : known_all.coefficients) {
+        result.standard[bound.place] =
+            R.col(bound.place).isZero(0.0) ? std::numeric_limits<double>::quiet_NaN() : result.standard[bound.place];
+    }
+    result.bodies = describe(known, solution.x);
+    result.active = active_of(problem.program, solution, scale);
+    result.floor = problem.floor;
+    result.objective = solution.objective;
+    result.unconstrained_objective = problem.program.constant;
+    result.gap = solution.gap;
+    result.reach = solution.reach;
+    result.steps = solution.steps;
+
+    estimate& fit = result.fit;
+    fit.chi = R * solution.x;
+    fit.converged = solution.converged;
+    fit.residual = errors(rows, fit.chi);
+    fit.joint_deviation = joint_deviations(rows, residuals(rows, fit.chi), weighted.qr.parameter_share());
+    const Eigen::MatrixXd S = weighted.qr.R * weighted.qr.column_norm.asDiagonal();
+    const Eigen::MatrixXd by_data = request.objective == consistency_objective::weighted
+                                        ? Eigen::MatrixXd::Identity(S.rows(), S.cols())
+                                        : Eigen::MatrixXd(S.transpose());
+    const Eigen::MatrixXd carried = R * solution.sensitivity * by_data;
+    const Eigen::MatrixXd inverse = weighted.qr.inverse();
+    add_carried_deviations(rows, weight, inverse, carried, fit);
+    for (Eigen::Index k = 0; k < fit.chi.size(); ++k) {
+        result.at_bound.push_back(carried.row(k).norm() < held_share * inverse.row(k).norm());
+    }
+    fit.message =
+        fmt::format("{} in {} Newton steps: no consistent parameters have an objective lower by more than {:.2g} of it",
+                    fit.converged ? "optimal" : "stalled", solution.steps, solution.gap / solution.objective);
+    result.inertia = scan_inertia(model, fit.chi.head(model.n_base), scanned_configurations);
+    result.unconstrained_inertia =
+        scan_inertia(model, result.unconstrained.chi.head(model.n_base), scanned_configurations);
+    return result;
+}
+
+}  // namespace idim
