@@ -241,6 +241,30 @@ TEST_P(ClosedLoop, HasAsManyBaseParametersAsTheRegressorHasRank) {
     expect_rank_of_mujoco(robot, GetParam().fourth);
 }
 
+TEST_P(ClosedLoop, KeepsItsEnergyWhenNothingDrivesIt) {
+    robot_under_test robot(GetParam().text, GetParam().fourth, 33);
+    const Eigen::VectorXd chi = robot.model.regroup(robot.standard);
+    joint_state s = robot.state();
+    const double start = robot.oracle->energy(s.q, s.qd);
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(robot.model.dof());
+    const auto acceleration = [&](const Eigen::VectorXd& q, const Eigen::VectorXd& qd) {
+        int pivot = -1;
+        const Eigen::VectorXd qdd = robot.model.forward_dynamics({q, qd, none}, none, chi, pivot);
+        EXPECT_EQ(pivot, 0);
+        return qdd;
+    };
+    constexpr double h = 1e-4;
+    for (int k = 0; k < 100; ++k) {  // Runge-Kutta of order four
+        const Eigen::VectorXd a = acceleration(s.q, s.qd);
+        const Eigen::VectorXd b = acceleration(s.q + h / 2 * s.qd, s.qd + h / 2 * a);
+        const Eigen::VectorXd c = acceleration(s.q + h / 2 * s.qd + h * h / 4 * a, s.qd + h / 2 * b);
+        const Eigen::VectorXd d = acceleration(s.q + h * s.qd + h * h / 2 * b, s.qd + h * c);
+        s.q += h * s.qd + h * h / 6 * (a + b + c);
+        s.qd += h / 6 * (a + 2 * b + 2 * c + d);
+    }
+    EXPECT_NEAR(robot.oracle->energy(s.q, s.qd), start, 1e-8 * std::max(1.0, std::abs(start)));
+}
+
 INSTANTIATE_TEST_SUITE_P(Robots, ClosedLoop, testing::ValuesIn(robots),
                          [](const testing::TestParamInfo<loop_robot>& robot) { return robot.param.name; });
 

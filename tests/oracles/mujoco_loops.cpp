@@ -220,6 +220,21 @@ Eigen::VectorXd mujoco_loops::inverse_dynamics(const joint_state& active) const 
     return G.transpose() * torque;
 }
 
+double mujoco_loops::energy(const Eigen::VectorXd& active, const Eigen::VectorXd& velocity) const {
+    const Eigen::VectorXd q = closed(active);
+    Eigen::VectorXd qd(model_->nv);
+    qd(address_) = rates(q) * velocity;
+    mj_forward(model_.get(), data_.get());
+    Eigen::MatrixXd M(model_->nv, model_->nv);  // symmetric: row or column major are the same
+    mj_fullM(model_.get(), M.data(), data_->qM);
+    double energy = 0.5 * qd.dot(M * qd);
+    const Eigen::Map<const Eigen::Vector3d> gravity(model_->opt.gravity);
+    for (int body = 1; body < model_->nbody; ++body) {
+        energy -= model_->body_mass[body] * gravity.dot(Eigen::Map<const Eigen::Vector3d>(data_->xipos + 3 * body));
+    }
+    return energy;
+}
+
 mujoco_loops mujoco_loops_of(const generator::robot_description& robot, const std::vector<rigid_link>& links,
                              const std::vector<int>& fourth) {
     value_table names;

@@ -49,6 +49,8 @@ class mujoco_loops {
     joint_state motion(const joint_state& active) const;
     /// G' times the torques of the tree.
     Eigen::VectorXd inverse_dynamics(const joint_state& active) const;
+    /// Kinetic and potential energy [J].
+    double energy(const Eigen::VectorXd& active, const Eigen::VectorXd& velocity) const;
 
   private:
     void place(const Eigen::VectorXd& all) const;
