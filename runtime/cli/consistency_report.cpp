@@ -38,7 +38,6 @@ json to_json(const consistent_estimate& found, const loaded_robot& robot) {
             {"objective_of_wls", found.unconstrained_objective},
             {"gap", found.gap},
             {"relative_gap", finite(found.gap / found.objective)},
-            {"reach", found.reach},
             {"floor", found.floor},
             {"steps", found.steps},
             {"links", links},

@@ -136,9 +136,9 @@ TEST_F(ConsistentFit, ReturnsAConsistentTruthWithoutNoiseAndNoConstraintIsActive
             const consistent_estimate found = fit(rows(1.0, 0.0, 1), request);
             ASSERT_EQ(found.fit.chi.size(), truth_.size()) << found.fit.message;
             EXPECT_TRUE(found.fit.converged) << found.fit.message;
-            // The gap ends at 1e-8 of 1e-12 of the squares: 1e-10 of the torque, times the condition number (squared by
+            // The proof ends at 1e-14 of the squares: 1e-7 of the torque, times the condition number (squared by
             // `normal`).
-            EXPECT_LT(deviation(found.fit.chi, truth_), 1e-6);
+            EXPECT_LT(deviation(found.fit.chi, truth_), objective == consistency_objective::weighted ? 1e-5 : 1e-3);
             EXPECT_TRUE(found.active.empty()) << found.active.front().name;
             EXPECT_EQ(std::count(found.at_bound.begin(), found.at_bound.end(), true), 0);
             expect_consistent(found, kind);
@@ -259,7 +259,7 @@ TEST_F(ConsistentFit, ThePriorDecidesWhatTheDataLeavesOpen) {
     const consistent_estimate found = fit(rows(1.0, 0.0, 1), request);
     ASSERT_TRUE(found.fit.converged) << found.fit.message;
     for (const inertial_body& body : known_.bodies) {
-        EXPECT_LT((body.of(found.standard) - body.of(*request.prior)).norm(), 1e-5 * body.of(*request.prior).norm())
+        EXPECT_LT((body.of(found.standard) - body.of(*request.prior)).norm(), 1e-4 * body.of(*request.prior).norm())
             << body.name;
     }
     // The same base parameters as without a prior, other links.

@@ -53,8 +53,8 @@ void expect_same_torques(const std::string& urdf, const test_model& model, const
     std::mt19937_64 random(3);
     for (int k = 0; k < 20; ++k) {
         const joint_state state = random_state(model.dof(), random);
-        // Roll, pitch and yaw, and central inertias, go through a rounding each.
-        EXPECT_LT(deviation(model.inverse_dynamics(state, chi), other.inverse_dynamics(state)), 1e-9);
+        // MuJoCo turns inertia tensors to principal axes with an error of 1e-6 rad.
+        EXPECT_LT(deviation(model.inverse_dynamics(state, chi), other.inverse_dynamics(state)), 1e-6);
     }
 }
 

@@ -48,6 +48,7 @@ struct random_problem {
                 body.basis.emplace_back(pseudo_inertia(body_parameters::Unit(k)));
             }
             body.floor = 1e-6;
+            body.size = 100.0;
             body.reference = Eigen::Vector4d(0.1, 0.1, 0.1, 2.0).asDiagonal();
             start.segment<10>(10 * i) = parameters_of_pseudo_inertia(body.reference);
             program.matrices.push_back(body);
@@ -141,8 +142,12 @@ TEST(ConeProgram, MeetsTheOptimalityConditions) {
         EXPECT_GT(eigenvalues[0], -1e-6 * std::max(1.0, eigenvalues[3]));
         active += static_cast<int>((eigenvalues.array() > 1e-3).count());
         complementarity += Z.cwiseProduct(slack).sum();
+        const Eigen::Matrix4d pull = problem.program.matrices[0].reference.inverse();
+        const double size_price = found.prices[static_cast<std::size_t>(frictions + i)];
+        EXPECT_GE(size_price, 0.0);
+        complementarity += size_price * (4.0 * 100.0 - pull.cwiseProduct(slack).sum());
         for (int k = 0; k < 10; ++k) {
-            balance[10 * i + k] -= Z.cwiseProduct(pseudo_inertia(body_parameters::Unit(k))).sum();
+            balance[10 * i + k] -= (Z - size_price * pull).cwiseProduct(pseudo_inertia(body_parameters::Unit(k))).sum();
         }
     }
     for (int k = 0; k < frictions; ++k) {

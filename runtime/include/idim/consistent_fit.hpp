@@ -90,8 +90,7 @@ struct consistent_estimate {
     double floor = 0.0;
     double objective = 0.0;  ///< at the result
     double unconstrained_objective = 0.0;
-    double gap = 0.0;    ///< no consistent parameters have an objective below `objective - gap` (cone_program.hpp)
-    double reach = 0.0;  ///< of that proof: bodies up to so many times the reference
+    double gap = 0.0;  ///< no consistent parameters have an objective below `objective - gap` (cone_program.hpp)
     int steps = 0;
     inertia_scan inertia, unconstrained_inertia;
 };
@@ -101,6 +100,9 @@ struct consistent_estimate {
 /// divided by its deviation as in least_squares_method::wls. The standard parameters are one of many sets with this
 /// chi: the one nearest to the prior in log-det divergence, else to a reference body of the size of the largest
 /// inertial parameter with a radius of gyration of 0.2 m.
+///
+/// Bodies are kept below some hundred times the mass of that reference, since a mass that no motion shows could else
+/// grow without end to make room for first moments; where this matters it is among the active constraints.
 ///
 /// Deviations are those of wls carried through the derivative of the solution: constraints that hold at the optimum are
 /// taken to hold.

@@ -14,10 +14,11 @@ namespace idim {
 
 namespace {
 
-constexpr int most_steps = 400;
-constexpr double centred = 1e-6;       // Newton decrement squared, in units of the weight
-constexpr double weight_factor = 0.1;  // from one central point to the next
-constexpr int most_idle_weights = 3;   // that do not improve the proof: rounding is all that is left
+constexpr int most_steps = 1000;
+constexpr double centred = 1e-6;          // Newton decrement squared, in units of the weight
+constexpr double weight_factor = 0.1;     // from one central point to the next
+constexpr int most_idle_weights = 3;      // that do not improve the proof: rounding is all that is left
+constexpr double rounding_share = 1e-14;  // of |b|^2 / 2: what gradients of double precision can prove
 constexpr double shortest_step = 1e-12;
 constexpr double boundary_share = 0.99;
 
@@ -63,15 +64,16 @@ Eigen::VectorXd as_vector(const Eigen::MatrixXd& S) {
 struct divergence_term {
     const matrix_constraint& of;
     double weight = 0.0;
+    bool is_prior = false;
     Eigen::MatrixXd L;  ///< F = L L'
 };
 
 std::vector<divergence_term> terms_at(const cone_program& program, const Eigen::VectorXd& x, double weight) {
     std::vector<divergence_term> terms;
     for (const matrix_constraint& constraint : program.matrices) {
-        terms.push_back({constraint, weight, lower_factor(slack_of(constraint, x))});
+        terms.push_back({constraint, weight, false, lower_factor(slack_of(constraint, x))});
         if (constraint.prior > 0.0) {
-            terms.push_back({constraint, constraint.prior, lower_factor(constraint.value(x))});
+            terms.push_back({constraint, constraint.prior, true, lower_factor(constraint.value(x))});
         }
     }
     return terms;
@@ -82,6 +84,7 @@ std::vector<divergence_term> terms_at(const cone_program& program, const Eigen::
 struct newton_rows {
     Eigen::MatrixXd J;
     Eigen::VectorXd r;
+    Eigen::VectorXd barrier;  ///< the part of r that is the barrier's
 };
 
 newton_rows rows_at(const cone_program& program, const std::vector<divergence_term>& terms, const Eigen::VectorXd& x,
@@ -90,7 +93,8 @@ newton_rows rows_at(const cone_program& program, const std::vector<divergence_te
     for (const divergence_term& term : terms) {
         height += term.L.rows() * (term.L.rows() + 1) / 2;
     }
-    newton_rows rows{Eigen::MatrixXd::Zero(height, x.size()), Eigen::VectorXd::Zero(height)};
+    newton_rows rows{Eigen::MatrixXd::Zero(height, x.size()), Eigen::VectorXd::Zero(height),
+                     Eigen::VectorXd::Zero(height)};
     rows.J.topRows(program.A.rows()) = program.A;
     rows.r.head(program.A.rows()) = program.b - program.A * x;
     Eigen::Index at = program.A.rows();
@@ -102,6 +106,9 @@ newton_rows rows_at(const cone_program& program, const std::vector<divergence_te
         }
         const Eigen::MatrixXd pull = term.L.transpose() * term.of.reference.llt().solve(term.L);
         rows.r.segment(at, size) = root * as_vector(Eigen::MatrixXd::Identity(term.L.rows(), term.L.rows()) - pull);
+        if (!term.is_prior) {
+            rows.barrier.segment(at, size) = rows.r.segment(at, size);
+        }
         at += size;
     }
     for (const linear_constraint& bound : program.bounds) {
@@ -110,25 +117,35 @@ newton_rows rows_at(const cone_program& program, const std::vector<divergence_te
             rows.J(at, term.place) += std::sqrt(weight) * term.factor / slack;
         }
         rows.r[at] = std::sqrt(weight) * (1.0 - (bound.reference > 0.0 ? slack / bound.reference : 0.0));
+        rows.barrier[at] = rows.r[at];
         ++at;
     }
     return rows;
 }
 
-/// Least squares through QR with columns of norm 1; the smallest solution where columns depend on one another.
+/// Least squares through QR with columns of norm 1; the smallest solution where columns depend on one another. Rows
+/// differ by many orders of magnitude: with the largest first, and pivoted columns, each keeps its own relative
+/// precision [Cox and Higham 1998, BIT 38].
 class scaled_least_squares {
   public:
-    explicit scaled_least_squares(const Eigen::MatrixXd& J) : scale_(J.colwise().norm().transpose()) {
+    explicit scaled_least_squares(const Eigen::MatrixXd& J)
+        : scale_(J.colwise().norm().transpose()), order_(static_cast<std::size_t>(J.rows())) {
         scale_ = (scale_.array() > 0.0).select(scale_.cwiseInverse(), 1.0);
+        const Eigen::MatrixXd scaled = J * scale_.asDiagonal();
+        const Eigen::VectorXd size = scaled.rowwise().norm();
+        std::iota(order_.begin(), order_.end(), 0);
+        std::stable_sort(order_.begin(), order_.end(),
+                         [&size](Eigen::Index a, Eigen::Index b) { return size[a] > size[b]; });
         qr_.setThreshold(1e-14);
-        qr_.compute(J * scale_.asDiagonal());
+        qr_.compute(scaled(order_, Eigen::all));
     }
     Eigen::MatrixXd solve(const Eigen::MatrixXd& r) const {
-        return scale_.asDiagonal() * Eigen::MatrixXd(qr_.solve(r));
+        return scale_.asDiagonal() * Eigen::MatrixXd(qr_.solve(r(order_, Eigen::all)));
     }
 
   private:
     Eigen::VectorXd scale_;
+    std::vector<Eigen::Index> order_;
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> qr_;
 };
 
@@ -232,24 +249,19 @@ Eigen::VectorXd gradient_at(const cone_program& program, const Eigen::VectorXd& 
     return gradient;
 }
 
-/// least_reach, or ten times as far as x is.
 double reach_of(const cone_program& program, const Eigen::VectorXd& x) {
-    double farthest = 0.0;
-    for (const matrix_constraint& constraint : program.matrices) {
-        const double size = constraint.reference.llt().solve(constraint.value(x)).trace();
-        farthest = std::max(farthest, size / static_cast<double>(constraint.reference.rows()));
-    }
+    double farthest = 10.0;
     for (const linear_constraint& bound : program.bounds) {
         farthest = bound.reference > 0.0 ? std::max(farthest, bound.slack(x) / bound.reference) : farthest;
     }
-    return std::max(least_reach, 10.0 * farthest);
+    return 10.0 * farthest;
 }
 
 /// Multipliers that balance the gradient, and the gap they prove: with f convex and g its gradient at x, for every
 /// feasible y
 ///     f(y) >= f(x) + g'(y - x) = f(x) - sum of <Z, F(x) - floor E> + sum of <Z, F(y) - floor E> and likewise of the
 ///     bounds,
-/// where the second sum is at least -shortfall reach dim for Z + shortfall F_0^-1 >= 0.
+/// where the second sum is at least -shortfall size dim for Z + shortfall F_0^-1 >= 0.
 void certify(const cone_program& program, cone_solution& at) {
     Eigen::VectorXd rest = gradient_at(program, at.x);
     std::vector<bool> is_owned(static_cast<std::size_t>(at.x.size()), false);
@@ -276,7 +288,7 @@ void certify(const cone_program& program, cone_solution& at) {
         const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(L0.transpose() * Z * L0, Eigen::EigenvaluesOnly);
         const double shortfall = std::max(0.0, -eigen.eigenvalues()[0]);
         at.gap += Z.cwiseProduct(constraint.value(at.x)).sum() - constraint.floor * Z.trace() +
-                  shortfall * at.reach * static_cast<double>(Z.rows());
+                  shortfall * constraint.size * static_cast<double>(Z.rows());
         for (const Eigen::Index place : constraint.places) {
             is_owned[static_cast<std::size_t>(place)] = true;
         }
@@ -287,7 +299,7 @@ void certify(const cone_program& program, cone_solution& at) {
 }
 
 double largest_gap(const cone_program& program, const cone_solution& at, double relative_gap) {
-    return relative_gap * std::max(at.objective, 1e-12 * 0.5 * program.b.squaredNorm());
+    return std::max(relative_gap * at.objective, rounding_share * 0.5 * program.b.squaredNorm());
 }
 
 /// Multipliers that a full Newton step from `x` makes: those of the barrier there, moved along with it. They balance
@@ -297,13 +309,12 @@ void set_multipliers(const cone_program& program, const std::vector<divergence_t
     at.prices.clear();
     for (const linear_constraint& bound : program.bounds) {
         const double slack = bound.slack(x);
-        at.prices.push_back(at.weight / slack * (1.0 - (bound.slack(step) + bound.low) / slack));
+        at.prices.push_back(std::max(0.0, at.weight / slack * (1.0 - (bound.slack(step) + bound.low) / slack)));
     }
     at.multipliers.clear();
-    const matrix_constraint* last = nullptr;
     for (const divergence_term& term : terms) {
-        if (std::exchange(last, &term.of) == &term.of) {
-            continue;  // that of the prior belongs to the objective
+        if (term.is_prior) {
+            continue;  // belongs to the objective
         }
         const auto E = Eigen::MatrixXd::Identity(term.L.rows(), term.L.rows());
         const Eigen::MatrixXd inverse = term.L.triangularView<Eigen::Lower>().solve(E);
@@ -343,6 +354,34 @@ bool centre(const cone_program& program, cone_solution& at) {
     return false;
 }
 
+/// The sizes of the matrix constraints as bounds behind the others.
+cone_program with_sizes(cone_program program) {
+    for (const matrix_constraint& constraint : program.matrices) {
+        const Eigen::VectorXd share = constraint.adjoint(constraint.reference.inverse());
+        linear_constraint& bound = program.bounds.emplace_back();
+        bound.name = "size of the " + constraint.name;
+        bound.low = -constraint.size * static_cast<double>(constraint.reference.rows());
+        for (std::size_t k = 0; k < constraint.places.size(); ++k) {
+            bound.terms.push_back({constraint.places[k], -share[static_cast<Eigen::Index>(k)]});
+        }
+    }
+    return program;
+}
+
+/// Lowers the weight and follows the tangent of the central points to it, as far as it stays inside: a Newton step
+/// alone would aim slacks that should shrink to a tenth far beyond the boundary.
+void lower_weight(const cone_program& program, cone_solution& at) {
+    const newton_rows rows = rows_at(program, terms_at(program, at.x, at.weight), at.x, at.weight);
+    const Eigen::VectorXd step = scaled_least_squares(rows.J).solve((weight_factor - 1.0) * rows.barrier);
+    at.weight *= weight_factor;
+    for (double length = 1.0; length > shortest_step; length *= 0.5) {
+        if (is_inside(program, at.x + length * step)) {
+            at.x += length * step;
+            return;
+        }
+    }
+}
+
 }  // namespace
 
 Eigen::MatrixXd matrix_constraint::value(const Eigen::VectorXd& x) const {
@@ -366,7 +405,8 @@ double linear_constraint::slack(const Eigen::VectorXd& x) const {
                            [&x](double sum, const term& t) { return sum + t.factor * x[t.place]; });
 }
 
-cone_solution solve(const cone_program& program, const Eigen::VectorXd& start, double relative_gap) {
+cone_solution solve(const cone_program& stated, const Eigen::VectorXd& start, double relative_gap) {
+    const cone_program program = with_sizes(stated);
     if (!is_inside(program, start)) {
         throw std::invalid_argument("a start outside the constraints, expected one strictly inside");
     }
@@ -380,7 +420,7 @@ cone_solution solve(const cone_program& program, const Eigen::VectorXd& start, d
     best.weight = std::max(best.objective, 1e-12 * program.b.squaredNorm()) / std::max(dimension, 1.0);
     best.gap = std::numeric_limits<double>::infinity();
     cone_solution at = best;
-    for (int idle = 0; idle < most_idle_weights && !best.converged && centre(program, at); at.weight *= weight_factor) {
+    for (int idle = 0; idle < most_idle_weights && !best.converged && centre(program, at); lower_weight(program, at)) {
         evaluate(program, at);
         certify(program, at);
         at.converged = at.gap <= largest_gap(program, at, relative_gap);

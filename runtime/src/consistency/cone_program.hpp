@@ -13,6 +13,7 @@ struct matrix_constraint {
     std::vector<Eigen::MatrixXd> basis;  ///< symmetric
     double floor = 0.0;
     Eigen::MatrixXd reference;  ///< F_0 > floor E: what F is near where nothing else decides
+    double size = 100.0;        ///< tr(F_0^-1 F) <= size dim: without it an optimum may lie at infinity
     double prior = 0.0;         ///< weight in the objective of the divergence of F from F_0
 
     Eigen::MatrixXd value(const Eigen::VectorXd& x) const;
@@ -52,29 +53,28 @@ struct cone_solution {
     Eigen::VectorXd x;           ///< strictly inside every constraint
     double objective = 0.0;      ///< constant included
     double least_squares = 0.0;  ///< constant + |A x - b|^2 / 2
-    /// No feasible point within reach has an objective below objective - gap; within reach: tr(F_0^-1 F) <= reach dim
-    /// for every matrix constraint, slacks and free variables below reach times their reference and value.
+    /// No feasible point has an objective below objective - gap, with slacks of bounds that have a reference below
+    /// `reach` references, and free variables below `reach` times their value.
     double gap = 0.0;
-    double reach = 0.0;                        ///< least_reach, or ten times as far as x is
+    double reach = 0.0;                        ///< 100, or ten times as far as x is
     double weight = 0.0;                       ///< of the barrier, at the end
     std::vector<Eigen::MatrixXd> multipliers;  ///< of the matrix constraints
-    std::vector<double> prices;                ///< multipliers of the bounds
-    Eigen::MatrixXd sensitivity;               ///< dx/db
-    int steps = 0;                             ///< of Newton
+    std::vector<double> prices;   ///< multipliers of the bounds, then of the sizes of the matrix constraints
+    Eigen::MatrixXd sensitivity;  ///< dx/db
+    int steps = 0;                ///< of Newton
     bool converged = false;
 };
-
-constexpr double least_reach = 100.0;
 
 /// Barrier method [Boyd and Vandenberghe 2004, Convex Optimization, section 11.3]: minimises the objective plus
 /// `weight` times
 ///     D(F - floor E || F_0) of every matrix constraint and -log(slack) + slack / reference of every bound
-/// for falling weights. Each Newton step is the least squares solution, by QR with columns of norm 1, of A and the rows
-/// that the factors of the constraints give: the Hessian, whose condition is the square of these rows', is never
-/// formed. The line search is exact, since along a line the barrier separates into the eigenvalues of the step in the
-/// metric of the factors. What the objective leaves open comes out where the divergences have their minimum: near F_0.
+/// for falling weights, along the tangent from one central point to the next. Each Newton step is the least squares
+/// solution, by QR with columns of norm 1, of A and the rows that the factors of the constraints give: the Hessian,
+/// whose condition is the square of these rows', is never formed. The line search is exact, since along a line the
+/// barrier separates into the eigenvalues of the step in the metric of the factors. What the objective leaves open
+/// comes out where the divergences have their minimum: near F_0.
 ///
-/// Ends when the gap is below `relative_gap` of the objective (of 1e-12 of |b|^2 / 2 where that is more). The gap is
+/// Ends when the gap is below `relative_gap` of the objective (or 1e-14 of |b|^2 / 2 where that is more). The gap is
 /// that of an explicit dual point: multipliers Z with <Z, F(y)> in the place of the gradient, whose eigenvalues below
 /// zero, from rounding or from centring, count with `reach`.
 ///

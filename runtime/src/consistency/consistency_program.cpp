@@ -13,7 +13,8 @@ namespace idim {
 namespace {
 
 constexpr double relative_floor = 1e-6;
-constexpr double gyration = 0.2;  // [m] of the reference body about each plane through its centre
+constexpr double size_limit = 25.0;  // of bodies: masses up to 100 times the reference's, if they are nothing but mass
+constexpr double gyration = 0.2;     // [m] of the reference body about each plane through its centre
 
 Eigen::MatrixXd matrix_of(consistency_kind kind, const body_parameters& body) {
     return kind == consistency_kind::full ? Eigen::MatrixXd(pseudo_inertia(body))
@@ -109,7 +110,10 @@ class collector {
     }
 
     body_parameters reference_of(const inertial_body& body) const {
-        return request_.prior ? body.of(*request_.prior) : ball(scale_.inertial, Eigen::Vector3d::Zero(), gyration);
+        const double mass = std::max(scale_.inertial, 4.0 * result_.floor);
+        return request_.prior
+                   ? body.of(*request_.prior)
+                   : ball(mass, Eigen::Vector3d::Zero(), std::max(gyration, std::sqrt(4.0 * result_.floor / mass)));
     }
 
     void add_bound(const std::string& what, std::vector<linear_constraint::term> terms, double low) {
@@ -204,6 +208,10 @@ class collector {
                 }
             }
             result_.start(known_.bodies[i].places) = body;
+            matrix_constraint& constraint = result_.program.matrices[i];
+            const double needed = constraint.reference.llt().solve(matrix_of(request_.kind, body)).trace() /
+                                  static_cast<double>(constraint.reference.rows());
+            constraint.size = std::max(size_limit, 10.0 * needed);
         }
     }
 

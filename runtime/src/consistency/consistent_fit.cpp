@@ -20,6 +20,7 @@ constexpr int scanned_configurations = 100000;
 // A constraint is active if relaxing it by the scale of its parameters would lower the objective by more than this
 // part.
 constexpr double active_share = 1e-5;
+constexpr double gap_multiple = 100.0;  // and by more than what the proof leaves open
 constexpr double held_share = 1e-3;
 
 /// R [columns x (s + columns of single logs)]: the parameters of the columns of `rows` from the standard parameters
@@ -72,21 +73,28 @@ std::vector<consistent_body> describe(const physical_parameters& known, const Ei
 std::vector<active_constraint> active_of(const cone_program& program, const cone_solution& solution,
                                          const parameter_scale& scale) {
     std::vector<active_constraint> active;
-    const double objective = std::max(solution.objective, 1e-12 * 0.5 * program.b.squaredNorm());
+    const double least = std::max(active_share * solution.objective, gap_multiple * solution.gap);
     for (std::size_t k = 0; k < program.matrices.size(); ++k) {
         const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(solution.multipliers[k], Eigen::EigenvaluesOnly);
         const Eigen::VectorXd& prices = eigen.eigenvalues();
-        const auto held = (prices.array() * scale.inertial > active_share * objective).count();
+        const auto held = (prices.array() * scale.inertial > least).count();
         if (held > 0) {
             active.push_back(
                 {fmt::format("{}: {} of {} eigenvalues at the floor", program.matrices[k].name, held, prices.size()),
                  prices.maxCoeff()});
         }
     }
+    for (std::size_t k = 0; k < program.matrices.size(); ++k) {
+        const matrix_constraint& body = program.matrices[k];
+        if (solution.prices[program.bounds.size() + k] * body.size * static_cast<double>(body.reference.rows()) >
+            least) {
+            active.push_back({"largest size of the " + body.name, solution.prices[program.bounds.size() + k]});
+        }
+    }
     for (std::size_t k = 0; k < program.bounds.size(); ++k) {
         const linear_constraint& bound = program.bounds[k];
         const double size = bound.reference > 0.0 ? bound.reference : scale.inertial;
-        if (solution.prices[k] * size > active_share * objective) {
+        if (solution.prices[k] * size > least) {
             active.push_back({bound.name, solution.prices[k]});
         }
     }
@@ -169,7 +177,6 @@ consistent_estimate consistent_fit(const idim_model_interface& model, const obse
     result.objective = solution.objective;
     result.unconstrained_objective = problem.program.constant;
     result.gap = solution.gap;
-    result.reach = solution.reach;
     result.steps = solution.steps;
 
     estimate& fit = result.fit;
