@@ -101,7 +101,7 @@ TEST(EffectDescription, MissingUnknownAndWrongFieldsAreRefused) {
     EXPECT_EQ(error_of(friction("")), "friction.yaml:1: linear: missing, expected at least one coefficient");
     EXPECT_EQ(error_of(friction("sort: x\n")),
               "friction.yaml:4: unknown key \"sort\", expected one of effect, per, acts_on, kind, torque, "
-              "torque_without_temperature, per_log, state, linear, shape, about");
+              "torque_without_temperature, per_log, state, linear, shape, about, proposed");
     EXPECT_EQ(error_of(friction("kind: x\n")),
               "friction.yaml:4: kind: expected expression, delay, gain, elasticity, tilt or payload, got \"x\"");
     EXPECT_EQ(error_of(friction("linear: {F: 1}\n")),

@@ -30,14 +30,14 @@ HoldWhatTheSourcesHave() {
         from templates share/idim/templates
         from robots share/idim/robots
         echo ./usr/bin/idim
-        echo ./usr/include/idim/model_interface.h
+        printf './usr/include/idim/%s\n' model_interface.h effect_interface.h law_interface.h law_adapter.hpp
         printf './usr/share/cmake/idim/%s\n' idim-config.cmake idim-config-version.cmake idim_generate.cmake
         printf './usr/share/doc/idim/%s\n' README.md changelog.gz copyright
         echo ./usr/share/man/man1/idim.1.gz
     } | sort)
     same "$command" "$expected" "$(listed "$command")"
     expected=$({
-        from runtime/include include | grep -v model_interface.h
+        from runtime/include include | grep -vE '/(model_interface|effect_interface|law_interface)[.]h$|/law_adapter[.]hpp$'
         printf './usr/lib/%s\n' libidim_runtime.a pkgconfig/idim.pc cmake/idim/idim-runtime-targets.cmake \
             cmake/idim/idim-runtime-targets-release.cmake
         printf './usr/share/doc/libidim-dev/%s\n' changelog.gz copyright

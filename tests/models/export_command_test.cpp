@@ -170,7 +170,7 @@ TEST_F(ExportCommand, TheYamlIsReadByOtherCommands) {
     const std::string text = export_as("yaml", folder_.write("result.json", result_of(model, file, inertias(2, 16))));
     EXPECT_NE(text.find("parameters:\n  ZZ1R: "), std::string::npos) << text;
     const std::string parameters = folder_.write("parameters.yaml", text);
-    std::string reference = "t,q1,q2\n";
+    std::string reference = "t,qr1,qr2\n";
     for (int k = 0; k < 200; ++k) {
         reference += fmt::format("{},{},{}\n", k / 200.0, 0.1 * std::sin(k / 20.0), 0.0);
     }

@@ -72,7 +72,7 @@ TEST_F(LoopCommand, SeveralLogsAreIdentifiedTogether) {
 
 TEST_F(LoopCommand, ComparesAllMethodsOnOneLog) {
     const json result = result_of({"identify", robot_file("scara"), log_, "--compare"});
-    ASSERT_EQ(result["methods"].size(), 7U);
+    ASSERT_EQ(result["methods"].size(), 8U);
     for (const json& method : result["methods"]) {
         ASSERT_EQ(method["parameters"].size(), 8U) << method["method"] << ": " << method["message"];
         EXPECT_NEAR(method["parameters"][0]["value"].get<double>(), 3.44, 0.05) << method["method"];
