@@ -374,11 +374,12 @@ void lower_weight(const cone_program& program, cone_solution& at) {
     const newton_rows rows = rows_at(program, terms_at(program, at.x, at.weight), at.x, at.weight);
     const Eigen::VectorXd step = scaled_least_squares(rows.J).solve((weight_factor - 1.0) * rows.barrier);
     at.weight *= weight_factor;
-    for (double length = 1.0; length > shortest_step; length *= 0.5) {
-        if (is_inside(program, at.x + length * step)) {
-            at.x += length * step;
-            return;
-        }
+    double length = 1.0;
+    while (length > shortest_step && !is_inside(program, at.x + length * step)) {
+        length *= 0.5;
+    }
+    if (length > shortest_step) {
+        at.x += length * step;
     }
 }
 

@@ -185,6 +185,22 @@ class collector {
     }
 
     /// Balls with these masses, their centres amid their boxes, large enough for the floor.
+    /// Beside a centre far out the smallest eigenvalue of a small ball is less than m radius^2.
+    body_parameters ball_above_floor(double m, const Eigen::Vector3d& centre, const std::string& name) const {
+        constexpr double largest = 1e6;
+        double radius = gyration;
+        body_parameters body = ball(m, centre, radius);
+        while (smallest_eigenvalue(matrix_of(request_.kind, body)) <= result_.floor) {
+            radius *= 2.0;
+            if (radius > largest) {
+                throw input_error({"", 0, "floor"},
+                                  fmt::format("{:g}, expected one that the {} can have", result_.floor, name));
+            }
+            body = ball(m, centre, radius);
+        }
+        return body;
+    }
+
     void start_inside() {
         const Eigen::VectorXd mass = masses_inside();
         for (std::size_t i = 0; i < known_.bodies.size(); ++i) {
@@ -197,16 +213,7 @@ class collector {
                 centre[static_cast<Eigen::Index>(axis)] = 0.5 * (low + high);
             }
             const double m = mass[static_cast<Eigen::Index>(i)];
-            body_parameters body;
-            // Beside a centre far out the smallest eigenvalue of a small ball is less than m radius^2.
-            for (double radius = gyration;
-                 smallest_eigenvalue(matrix_of(request_.kind, body = ball(m, centre, radius))) <= result_.floor;) {
-                radius *= 2.0;
-                if (radius > 1e6) {
-                    throw input_error({"", 0, "floor"}, fmt::format("{:g}, expected one that the {} can have",
-                                                                    result_.floor, known_.bodies[i].name));
-                }
-            }
+            const body_parameters body = ball_above_floor(m, centre, known_.bodies[i].name);
             result_.start(known_.bodies[i].places) = body;
             matrix_constraint& constraint = result_.program.matrices[i];
             const double needed = constraint.reference.llt().solve(matrix_of(request_.kind, body)).trace() /
