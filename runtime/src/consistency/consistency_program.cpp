@@ -184,7 +184,6 @@ class collector {
         return low + share * (high - low);
     }
 
-    /// Balls with these masses, their centres amid their boxes, large enough for the floor.
     /// Beside a centre far out the smallest eigenvalue of a small ball is less than m radius^2.
     body_parameters ball_above_floor(double m, const Eigen::Vector3d& centre, const std::string& name) const {
         constexpr double largest = 1e6;
@@ -201,6 +200,7 @@ class collector {
         return body;
     }
 
+    /// Balls with these masses, their centres amid their boxes, large enough for the floor.
     void start_inside() {
         const Eigen::VectorXd mass = masses_inside();
         for (std::size_t i = 0; i < known_.bodies.size(); ++i) {
