@@ -109,7 +109,8 @@ void put_dynamics(xml_element& joint, const parameter_values_by_name& parameters
 /// What of the parameters a URDF has no element for.
 std::vector<std::string> left_out(const robot_description& robot, const parameter_values_by_name& parameters) {
     std::string names;
-    for (const auto& [name, value] : parameters) {
+    for (const auto& parameter : parameters) {
+        const std::string& name = parameter.first;
         bool is_held = false;
         for (std::size_t j = 0; j < robot.joints.size(); ++j) {
             const std::string label = parameter_label(robot.joints, static_cast<int>(j));
@@ -117,7 +118,7 @@ std::vector<std::string> left_out(const robot_description& robot, const paramete
                       std::any_of(inertial_names.begin(), inertial_names.end(),
                                   [&](const char* kind) { return name == kind + label; });
         }
-        if (!is_held && value != 0.0) {
+        if (!is_held && parameter.second != 0.0) {
             names += " " + name;
         }
     }
