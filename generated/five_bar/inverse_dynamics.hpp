@@ -80,10 +80,10 @@ void inverse_dynamics_sc([[maybe_unused]] const Scalar* q,
     const Scalar Gv2_j3n = Dinv_j3n * Gv2g_j3n;
     const Scalar wd_j3n = qd[0] * Gw1_j3n - qd[1] * Gw2_j3;
     const Scalar vd_j3 = qd[0] * Gv1_j3 - qd[1] * Gv2_j3n;
-    const Scalar vrate_j3 = qd[1] + vd_j3;
-    const Scalar vsquare_j3 = vrate_j3 * vrate_j3;
     const Scalar wrate_j3 = qd[0] - wd_j3n;
     const Scalar wsquare_j3 = wrate_j3 * wrate_j3;
+    const Scalar vrate_j3 = qd[1] + vd_j3;
+    const Scalar vsquare_j3 = vrate_j3 * vrate_j3;
     const Scalar WzWz1 = qd[0] * qd[0];
     const Scalar VC_j3_1n = Scalar(0.063) * WzWz1;
     const Scalar WzWz2 = qd[1] * qd[1];

@@ -337,8 +337,10 @@ class loop_closer {
         }
         w.velocity = velocity("wd", w.velocity);
         v.velocity = velocity("vd", v.velocity);
-        const plane_pair gap =
-            velocity("gd", acceleration(w, "w") - acceleration(v, "v") - between_.drift(tree_.q, tree_.qd));
+        // One after the other: the order of the definitions is the order of the lines written.
+        const plane_pair of_w = acceleration(w, "w");
+        const plane_pair of_v = acceleration(v, "v");
+        const plane_pair gap = velocity("gd", of_w - of_v - between_.drift(tree_.q, tree_.qd));
         w.drift = velocity("wdd", -per_area_ * velocity("gdv", dot(gap, v.side)));
         v.drift = velocity("vdd", -per_area_ * velocity("gdw", dot(gap, w.side)));
     }
