@@ -16,7 +16,6 @@ namespace {
 
 constexpr xml_limits limits = {32, 100'000, 64, "link", 2000};
 constexpr double unlimited = 1e9;  // of speed and effort, which a URDF must give where there are limits of position
-constexpr std::array<const char*, 10> inertial_names = {"XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M"};
 
 using parameter_values_by_name = std::map<std::string, double>;
 
@@ -127,14 +126,11 @@ std::vector<std::string> left_out(const robot_description& robot, const paramete
 
 /// A number without coordinates: constants at their values, coordinates at zero.
 double at_zero(const kinematic_tree& tree, const GiNaC::ex& e) {
-    GiNaC::exmap values;
-    for (const kinematic_constant& constant : tree.constants) {
-        values[constant.symbol] = constant.value;
-    }
+    GiNaC::exmap values = values_of_constants(tree);
     for (const GiNaC::symbol& q : tree.q) {
         values[q] = 0;
     }
-    return GiNaC::ex_to<GiNaC::numeric>(GiNaC::evalf(e.subs(values))).to_double();
+    return number_of(e, values);
 }
 
 double angle(const kinematic_tree& tree, const angle_pair& pair) {

@@ -316,4 +316,16 @@ kinematic_tree build_kinematic_tree(const robot_description& robot) {
     return tree_reader(robot).run();
 }
 
+GiNaC::exmap values_of_constants(const kinematic_tree& tree) {
+    GiNaC::exmap values;
+    for (const kinematic_constant& constant : tree.constants) {
+        values[constant.symbol] = constant.value;
+    }
+    return values;
+}
+
+double number_of(const ex& constant, const GiNaC::exmap& values) {
+    return GiNaC::ex_to<GiNaC::numeric>(constant.subs(values).evalf()).to_double();
+}
+
 }  // namespace idim::generator

@@ -91,4 +91,9 @@ struct kinematic_tree {
 /// these, and for loops that do not close (see close_loop).
 kinematic_tree build_kinematic_tree(const robot_description& robot);
 
+/// Exact values of the tree's constants.
+GiNaC::exmap values_of_constants(const kinematic_tree& tree);
+/// What an expression in constants is worth.
+double number_of(const GiNaC::ex& constant, const GiNaC::exmap& values);
+
 }  // namespace idim::generator

@@ -183,18 +183,6 @@ void check_heights(const planar_loop& loop, const kinematic_tree& tree, const ex
 
 }  // namespace
 
-GiNaC::exmap values_of_constants(const kinematic_tree& tree) {
-    GiNaC::exmap values;
-    for (const kinematic_constant& constant : tree.constants) {
-        values[constant.symbol] = constant.value;
-    }
-    return values;
-}
-
-double number_of(const ex& constant, const GiNaC::exmap& values) {
-    return GiNaC::ex_to<GiNaC::numeric>(constant.subs(values).evalf()).to_double();
-}
-
 loop_sides walk_sides(const planar_loop& loop, const kinematic_tree& tree, const GiNaC::exmap& values) {
     const std::array<std::vector<int>, 2> way = ways(loop, tree);
     for (const int joint : loop.passive) {

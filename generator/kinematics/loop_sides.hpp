@@ -26,9 +26,4 @@ struct loop_sides {
 /// Throws input_error as close_loop does for what concerns the joints of the loop.
 loop_sides walk_sides(const planar_loop& loop, const kinematic_tree& tree, const GiNaC::exmap& values);
 
-/// Exact values of the tree's constants.
-GiNaC::exmap values_of_constants(const kinematic_tree& tree);
-/// What an expression in constants is worth.
-double number_of(const GiNaC::ex& constant, const GiNaC::exmap& values);
-
 }  // namespace idim::generator
