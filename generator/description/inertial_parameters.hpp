@@ -19,6 +19,10 @@ struct urdf_inertial {
 /// (Khalil and Dombre 2002, section 9.2).
 using inertial_parameters = std::array<double, 10>;
 
+/// Their names, less the label of the joint.
+inline constexpr std::array<const char*, 10> inertial_names = {"XX", "XY", "XZ", "YY", "YZ",
+                                                               "ZZ", "MX", "MY", "MZ", "M"};
+
 /// Where a link of a URDF stands in our frame of it, so that parameters go both ways.
 struct link_placement {
     std::string link;                                    ///< its name in the URDF

@@ -94,6 +94,7 @@ bool is_header(const control_description& control);
 /// What the user wrote, checked for form but not for meaning: the only stage that knows the file format (FORMATS.md).
 struct robot_description {
     std::string file;
+    std::string urdf_file;  ///< that it is or names; empty for one of frames
     std::string name;
     std::vector<expression_text> gravity;  ///< three entries [m/s^2], base frame
     std::vector<constant_description> constants;

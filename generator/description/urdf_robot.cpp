@@ -14,7 +14,6 @@ namespace {
 
 constexpr std::size_t most_rows = 200;
 constexpr int base = -1;
-constexpr std::array<const char*, 10> inertial_names = {"XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M"};
 
 std::size_t at(int index) {
     return static_cast<std::size_t>(index);

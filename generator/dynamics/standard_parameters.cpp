@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "description/inertial_parameters.hpp"
 #include "dynamics/effect_terms.hpp"
 
 namespace idim::generator {
@@ -11,8 +12,6 @@ namespace idim::generator {
 namespace {
 
 using GiNaC::ex;
-
-constexpr std::array<const char*, 10> inertial_names = {"XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M"};
 
 std::string inertial_unit(std::size_t kind) {
     return kind < 6 ? "kg*m^2" : kind < 9 ? "kg*m" : "kg";
