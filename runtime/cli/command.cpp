@@ -56,4 +56,13 @@ void write_json(const std::string& file, const json& content) {
     }
 }
 
+void write_text(const std::filesystem::path& file, const std::string& text) {
+    std::ofstream out(file, std::ios::binary);
+    out << text;
+    out.close();
+    if (!out) {
+        throw input_error({file.string(), 0, ""}, "cannot be written");
+    }
+}
+
 }  // namespace idim::cli

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -34,6 +35,9 @@ void add_json_option(CLI::App& command, std::string& file);
 /// empty. "idim_version" is
 /// put in front. Throws input_error where it cannot be written.
 void write_json(const std::string& file, const json& content);
+
+/// Throws input_error where the file cannot be written.
+void write_text(const std::filesystem::path& file, const std::string& text);
 
 /// Writes what was noted while reading a file to standard error, one line each.
 void print_notes(const std::string& file, const std::vector<std::string>& notes);

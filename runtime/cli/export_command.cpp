@@ -1,9 +1,4 @@
 #include <fmt/format.h>
-#include <yaml-cpp/yaml.h>
-
-#include <cmath>
-#include <filesystem>
-#include <fstream>
 
 #include "description/robot_description.hpp"
 #include "description/text_file.hpp"
@@ -25,16 +20,6 @@ struct export_options {
     std::string output;
 };
 
-/// The URDF a description is, or names; empty for one of frames.
-std::string urdf_of(const std::string& robot_file) {
-    const std::filesystem::path path(robot_file);
-    if (path.extension() == ".urdf") {
-        return robot_file;
-    }
-    const YAML::Node named = YAML::LoadFile(robot_file)["urdf"];
-    return named ? (path.parent_path() / named.as<std::string>()).string() : "";
-}
-
 std::string as_urdf(const exported_result& result, const std::string& file) {
     if (result.standard.empty()) {
         throw input_error({file, 0, "consistency"},
@@ -47,7 +32,7 @@ std::string as_urdf(const exported_result& result, const std::string& file) {
     for (const named_value& value : result.standard) {
         parameters[value.name] = value.value;
     }
-    const std::string source = urdf_of(result.robot_file);
+    const std::string& source = robot.urdf_file;
     const generator::urdf_file urdf =
         source.empty()
             ? generator::to_urdf(robot, generator::build_kinematic_tree(robot), parameters)
@@ -61,12 +46,7 @@ void write(const std::string& file, const std::string& text) {
         fmt::print("{}", text);
         return;
     }
-    std::ofstream out(file, std::ios::binary);
-    out << text;
-    out.close();
-    if (!out) {
-        throw input_error({file, 0, "-o"}, "cannot be written");
-    }
+    write_text(file, text);
 }
 
 int run(const export_options& options) {

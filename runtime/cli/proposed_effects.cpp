@@ -4,9 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <filesystem>
-#include <fstream>
-
-#include "idim/input_error.hpp"
 
 namespace idim::cli {
 
@@ -55,12 +52,7 @@ std::vector<proposed_effect> write_proposed_effects(const effect_trace& trace, c
         }
         const std::string name = fmt::format("proposed_{}", number);
         const fs::path path = fs::path(folder) / (name + ".yaml");
-        std::ofstream file(path, std::ios::binary);
-        file << file_text(structure, joint_name(traced.robot, structure.joint), number);
-        file.close();
-        if (!file) {
-            throw input_error({path.string(), 0, ""}, "cannot be written");
-        }
+        write_text(path, file_text(structure, joint_name(traced.robot, structure.joint), number));
         written.push_back({s, {name, {structure.joint}, structure.from}, path.string(), torque_of(structure, number)});
     }
     return written;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 
 #include "emit/model_folder.hpp"
@@ -65,15 +64,6 @@ json result_json(const identified_robot& identified, const traced_robot& traced,
     json content = to_json(identified.found, method);
     content["validation"] = to_json(identified.errors.validation, traced.robot);
     return content;
-}
-
-void write_text(const fs::path& path, const std::string& text) {
-    std::ofstream file(path, std::ios::binary);
-    file << text;
-    file.close();
-    if (!file) {
-        throw input_error({path.string(), 0, ""}, "cannot be written");
-    }
 }
 
 /// What a reviewer reads: the change of the generated code.

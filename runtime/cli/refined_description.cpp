@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
 #include "description/effect_insertion.hpp"
 #include "description/robot_description.hpp"
@@ -103,12 +102,7 @@ std::string write_with_effects(const std::string& robot_file, const std::vector<
     const std::string text = generator::with_effects(before, items, robot_file);
     copy_what_it_names(robot_file, folder);
     const fs::path path = fs::path(folder) / "robot.yaml";
-    std::ofstream file(path, std::ios::binary);
-    file << text;
-    file.close();
-    if (!file) {
-        throw input_error({path.string(), 0, ""}, "cannot be written");
-    }
+    write_text(path, text);
     return path.string();
 }
 

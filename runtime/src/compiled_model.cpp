@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "idim/private_folder.hpp"
 #include "loaded_library.hpp"
 #include "model_cache.hpp"
 #include "model_entry.hpp"

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "idim/private_folder.hpp"
 #include "trusted_file.hpp"
 
 namespace idim {
@@ -58,19 +59,6 @@ file_descriptor lock_file(const std::filesystem::path& file) {
 }
 
 }  // namespace
-
-private_folder::private_folder(const std::filesystem::path& prefix) {
-    std::string pattern = prefix.string() + "XXXXXX";
-    if (mkdtemp(pattern.data()) == nullptr) {
-        throw std::system_error(errno, std::generic_category(), pattern);
-    }
-    path_ = pattern;
-}
-
-private_folder::~private_folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-}
 
 std::optional<std::filesystem::path> usable_cache(const std::string& wanted) {
     try {

@@ -9,21 +9,6 @@
 
 namespace idim {
 
-/// A new folder for this user alone, removed with all it holds at the end of the scope. Throws std::system_error.
-class private_folder {
-  public:
-    /// `prefix` is the path up to the part that makes it unique.
-    explicit private_folder(const std::filesystem::path& prefix);
-    ~private_folder();
-    private_folder(const private_folder&) = delete;
-    private_folder& operator=(const private_folder&) = delete;
-
-    const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
-
 /// The folder `wanted`, else $XDG_CACHE_HOME/idim, else $HOME/.cache/idim; made if it is missing. Nothing if none is
 /// named, or the one named is not trusted or cannot be written. A relative path in a variable is ignored
 /// [XDG Base Directory Specification 0.8].

@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "child_process.hpp"
-#include "model_cache.hpp"
+#include "idim/private_folder.hpp"
 #include "trusted_file.hpp"
 
 namespace idim {
