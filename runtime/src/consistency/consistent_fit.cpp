@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "consistency/consistency_program.hpp"
+#include "regrouping.hpp"
 #include "sandwich.hpp"
 #include "weighted_fit.hpp"
 
@@ -26,15 +27,9 @@ constexpr double held_share = 1e-3;
 /// R [columns x (s + columns of single logs)]: the parameters of the columns of `rows` from the standard parameters
 /// and, behind them, those that single logs have of their own.
 Eigen::MatrixXd regrouping_of(const idim_model_interface& model, const observation& rows) {
-    const Eigen::Index s = model.n_standard;
     const Eigen::Index own = rows.n_base - model.n_base;
-    Eigen::MatrixXd R = Eigen::MatrixXd::Zero(rows.n_base, s + own);
-    for (Eigen::Index k = 0; k < s; ++k) {
-        const Eigen::VectorXd unit = Eigen::VectorXd::Unit(s, k);
-        Eigen::VectorXd chi(model.n_base);
-        model.regroup(unit.data(), chi.data());
-        R.col(k).head(model.n_base) = chi;
-    }
+    Eigen::MatrixXd R = Eigen::MatrixXd::Zero(rows.n_base, model.n_standard + own);
+    R.topLeftCorner(model.n_base, model.n_standard) = idim::regrouping_of(model);
     R.bottomRightCorner(own, own).setIdentity();
     return R;
 }
@@ -101,6 +96,16 @@ std::vector<active_constraint> active_of(const cone_program& program, const cone
     return active;
 }
 
+double sum_of_squares(const joint_series& series) {
+    double sum = 0.0;
+    for (const std::vector<Eigen::VectorXd>& segments : series) {
+        for (const Eigen::VectorXd& segment : segments) {
+            sum += segment.squaredNorm();
+        }
+    }
+    return sum;
+}
+
 /// Fills the deviations of a constrained estimate: `carried` is its derivative by that of weighted least squares in the
 /// coordinates of the orthonormal columns of the weighted W.
 void add_carried_deviations(const observation& rows, const std::vector<double>& joint_weight,
@@ -109,13 +114,8 @@ void add_carried_deviations(const observation& rows, const std::vector<double>& 
     sandwich robust = robust_covariance(rows, joint_weight, inverse, carried, score);
     fit.covariance = std::move(robust.covariance);
     fit.correlation_length = std::move(robust.correlation_length);
-    double sum = 0.0;
-    for (const std::vector<Eigen::VectorXd>& segments : score) {
-        for (const Eigen::VectorXd& segment : segments) {
-            sum += segment.squaredNorm();
-        }
-    }
-    fit.std_white = std::sqrt(sum / static_cast<double>(rows.rows() - rows.n_base)) * carried.rowwise().norm();
+    fit.std_white =
+        std::sqrt(sum_of_squares(score) / static_cast<double>(rows.rows() - rows.n_base)) * carried.rowwise().norm();
 }
 
 void set_objective(cone_program& program, consistency_objective objective, const stacked_qr& qr,
@@ -129,6 +129,30 @@ void set_objective(cone_program& program, consistency_objective objective, const
         program.A = S.transpose() * (S * R);
         program.b = S.transpose() * qr.z;
     }
+}
+
+/// Base parameters of the optimum, their errors and deviations.
+void fill_estimate(const observation& rows, const std::vector<double>& weight, const stacked_qr& qr,
+                   const Eigen::MatrixXd& R, consistency_objective objective, const cone_solution& solution,
+                   consistent_estimate& result) {
+    estimate& fit = result.fit;
+    fit.chi = R * solution.x;
+    fit.converged = solution.converged;
+    fit.residual = errors(rows, fit.chi);
+    fit.joint_deviation = joint_deviations(rows, residuals(rows, fit.chi), qr.parameter_share());
+    const Eigen::MatrixXd S = qr.R * qr.column_norm.asDiagonal();
+    const Eigen::MatrixXd by_data = objective == consistency_objective::weighted
+                                        ? Eigen::MatrixXd::Identity(S.rows(), S.cols())
+                                        : Eigen::MatrixXd(S.transpose());
+    const Eigen::MatrixXd carried = R * solution.sensitivity * by_data;
+    const Eigen::MatrixXd inverse = qr.inverse();
+    add_carried_deviations(rows, weight, inverse, carried, fit);
+    for (Eigen::Index k = 0; k < fit.chi.size(); ++k) {
+        result.at_bound.push_back(carried.row(k).norm() < held_share * inverse.row(k).norm());
+    }
+    fit.message =
+        fmt::format("{} in {} Newton steps: no consistent parameters have an objective lower by more than {:.2g} of it",
+                    fit.converged ? "optimal" : "stalled", solution.steps, solution.gap / solution.objective);
 }
 
 }  // namespace
@@ -149,13 +173,6 @@ consistent_estimate consistent_fit(const idim_model_interface& model, const obse
         return result;
     }
     result.unconstrained = weighted_fit(rows, weight);
-    double remaining = 0.0;
-    for (const auto& segments : scaled(residuals(rows, weighted.fit.chi), weight)) {
-        for (const Eigen::VectorXd& segment : segments) {
-            remaining += 0.5 * segment.squaredNorm();
-        }
-    }
-
     const Eigen::MatrixXd R = regrouping_of(model, rows);
     const physical_parameters known = with_effect_only(known_all, R);
     const Eigen::VectorXd least = R.completeOrthogonalDecomposition().solve(weighted.fit.chi);
@@ -163,7 +180,8 @@ consistent_estimate consistent_fit(const idim_model_interface& model, const obse
     std::vector<std::string> names(model.standard_names, model.standard_names + model.n_standard);
     names.resize(static_cast<std::size_t>(R.cols()));
     consistency_program problem = constrain(known, request, scale, names);
-    set_objective(problem.program, request.objective, weighted.qr, R, remaining);
+    set_objective(problem.program, request.objective, weighted.qr, R,
+                  0.5 * sum_of_squares(scaled(residuals(rows, weighted.fit.chi), weight)));
     const cone_solution solution = solve(problem.program, problem.start, relative_gap);
 
     result.standard = solution.x.head(model.n_standard);
@@ -179,25 +197,8 @@ consistent_estimate consistent_fit(const idim_model_interface& model, const obse
     result.gap = solution.gap;
     result.steps = solution.steps;
 
-    estimate& fit = result.fit;
-    fit.chi = R * solution.x;
-    fit.converged = solution.converged;
-    fit.residual = errors(rows, fit.chi);
-    fit.joint_deviation = joint_deviations(rows, residuals(rows, fit.chi), weighted.qr.parameter_share());
-    const Eigen::MatrixXd S = weighted.qr.R * weighted.qr.column_norm.asDiagonal();
-    const Eigen::MatrixXd by_data = request.objective == consistency_objective::weighted
-                                        ? Eigen::MatrixXd::Identity(S.rows(), S.cols())
-                                        : Eigen::MatrixXd(S.transpose());
-    const Eigen::MatrixXd carried = R * solution.sensitivity * by_data;
-    const Eigen::MatrixXd inverse = weighted.qr.inverse();
-    add_carried_deviations(rows, weight, inverse, carried, fit);
-    for (Eigen::Index k = 0; k < fit.chi.size(); ++k) {
-        result.at_bound.push_back(carried.row(k).norm() < held_share * inverse.row(k).norm());
-    }
-    fit.message =
-        fmt::format("{} in {} Newton steps: no consistent parameters have an objective lower by more than {:.2g} of it",
-                    fit.converged ? "optimal" : "stalled", solution.steps, solution.gap / solution.objective);
-    result.inertia = scan_inertia(model, fit.chi.head(model.n_base), scanned_configurations);
+    fill_estimate(rows, weight, weighted.qr, R, request.objective, solution, result);
+    result.inertia = scan_inertia(model, result.fit.chi.head(model.n_base), scanned_configurations);
     result.unconstrained_inertia =
         scan_inertia(model, result.unconstrained.chi.head(model.n_base), scanned_configurations);
     return result;

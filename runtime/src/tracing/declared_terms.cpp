@@ -9,6 +9,7 @@
 
 #include "effect_evidence.hpp"
 #include "link_parameters.hpp"
+#include "regrouping.hpp"
 
 namespace idim {
 

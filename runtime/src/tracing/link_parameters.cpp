@@ -4,21 +4,6 @@
 
 namespace idim {
 
-Eigen::MatrixXd regrouping_of(const idim_model_interface& model) {
-    Eigen::VectorXd standard = Eigen::VectorXd::Zero(model.n_standard);
-    Eigen::VectorXd none(model.n_base);
-    model.regroup(standard.data(), none.data());
-    Eigen::MatrixXd B(model.n_base, model.n_standard);
-    for (Eigen::Index p = 0; p < model.n_standard; ++p) {
-        standard.setZero();
-        standard[p] = 1.0;
-        Eigen::VectorXd base(model.n_base);
-        model.regroup(standard.data(), base.data());
-        B.col(p) = base - none;
-    }
-    return B;
-}
-
 Eigen::MatrixXd link_columns(const idim_model_interface& model, const Eigen::MatrixXd& regrouping, int joint) {
     Eigen::MatrixXd B = Eigen::MatrixXd::Zero(model.n_base, static_cast<Eigen::Index>(inertial_names.size()));
     for (std::size_t c = 0; c < inertial_names.size(); ++c) {

@@ -12,9 +12,6 @@ constexpr std::array<const char*, 10> inertial_names = {"XX", "XY", "XZ", "YY", 
 constexpr std::array<const char*, 10> inertial_units = {"kg*m^2", "kg*m^2", "kg*m^2", "kg*m^2", "kg*m^2",
                                                         "kg*m^2", "kg*m",   "kg*m",   "kg*m",   "kg"};
 
-/// Base parameters per unit of each standard one, b x s.
-Eigen::MatrixXd regrouping_of(const idim_model_interface& model);
-
 /// Columns of a regrouping that belong to the ten inertial parameters of the link of `joint`, b x 10; zero where the
 /// robot has no such parameter.
 Eigen::MatrixXd link_columns(const idim_model_interface& model, const Eigen::MatrixXd& regrouping, int joint);

@@ -5,6 +5,7 @@
 
 #include "link_parameters.hpp"
 #include "model_candidates.hpp"
+#include "regrouping.hpp"
 #include "trace_fit.hpp"
 
 namespace idim {

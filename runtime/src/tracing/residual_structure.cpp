@@ -6,6 +6,7 @@
 #include <optional>
 #include <random>
 
+#include "column_span.hpp"
 #include "effect_evidence.hpp"
 
 namespace idim {
@@ -76,19 +77,6 @@ class hat_surface {
     std::vector<Eigen::VectorXd> knots_;
 };
 
-/// Orthonormal columns of the span of A.
-Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& A) {
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(A);
-    qr.setThreshold(1e-6);
-    Eigen::MatrixXd Q = Eigen::MatrixXd::Identity(A.rows(), qr.rank());
-    Q.applyOnTheLeft(qr.householderQ());
-    return Q;
-}
-
-Eigen::MatrixXd outside(const Eigen::MatrixXd& span, const Eigen::MatrixXd& A) {
-    return A - span * (span.transpose() * A);
-}
-
 std::vector<signal_set> sets_of(const std::vector<signal_source>& sources) {
     std::vector<signal_set> sets;
     const auto count = static_cast<Eigen::Index>(sources.size());
@@ -146,8 +134,9 @@ class dependence_test {
     /// Part of the residual held back that a set explains with what was fitted.
     double explained_held_back(const signal_set& set) const {
         const hat_surface surface(fitted_, set);
-        Eigen::MatrixXd all(fitted_.left.size(), fitted_.model.cols() + surface.columns(fitted_).cols());
-        all << fitted_.model, surface.columns(fitted_);
+        const Eigen::MatrixXd columns = surface.columns(fitted_);
+        Eigen::MatrixXd all(columns.rows(), fitted_.model.cols() + columns.cols());
+        all << fitted_.model, columns;
         Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
         solver.setThreshold(1e-6);
         solver.compute(all);

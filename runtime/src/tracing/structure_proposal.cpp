@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <functional>
+
+#include "column_span.hpp"
 
 namespace idim {
 
@@ -148,13 +149,6 @@ std::vector<grammar_form> forms_of(const joint_residual& rows, const signal_depe
     return forms;
 }
 
-Eigen::MatrixXd outside(const Eigen::MatrixXd& model, const Eigen::MatrixXd& A) {
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
-    solver.setThreshold(1e-6);
-    solver.compute(model);
-    return A - model * solver.solve(A);
-}
-
 /// Terms of a form that show outside the model, and how much of the residual they explain.
 struct fitted_form {
     grammar_form terms;
@@ -179,13 +173,13 @@ double cross_validated(const Eigen::MatrixXd& C, const Eigen::VectorXd& y) {
     return 1.0 - left / y.squaredNorm();
 }
 
-fitted_form fit_form(const joint_residual& rows, const grammar_form& form) {
-    Eigen::MatrixXd all(rows.left.size(), static_cast<Eigen::Index>(form.size()) + 1);
+/// `left`: the residual, outside the span of the model.
+fitted_form fit_form(const Eigen::MatrixXd& span, const Eigen::VectorXd& left, const grammar_form& form) {
+    Eigen::MatrixXd all(left.size(), static_cast<Eigen::Index>(form.size()));
     for (std::size_t k = 0; k < form.size(); ++k) {
         all.col(static_cast<Eigen::Index>(k)) = form[k].values.normalized();
     }
-    all.rightCols(1) = rows.left;
-    all = outside(rows.model, all);
+    all = outside(span, all);
     fitted_form fitted;
     std::vector<Eigen::Index> shown;
     for (std::size_t k = 0; k < form.size(); ++k) {
@@ -195,7 +189,7 @@ fitted_form fit_form(const joint_residual& rows, const grammar_form& form) {
         }
     }
     if (!shown.empty()) {
-        fitted.explained = cross_validated(all(Eigen::all, shown).colwise().normalized(), all.rightCols(1));
+        fitted.explained = cross_validated(all(Eigen::all, shown).colwise().normalized(), left);
     }
     return fitted;
 }
@@ -203,9 +197,11 @@ fitted_form fit_form(const joint_residual& rows, const grammar_form& form) {
 /// The form that explains most where it was not fitted, or a simpler one that does nearly as well, without the terms
 /// that it does as well without.
 fitted_form best_form(const joint_residual& rows, const signal_dependence& dependence) {
+    const Eigen::MatrixXd span = orthonormal(rows.model);
+    const Eigen::VectorXd left = outside(span, rows.left);
     std::vector<fitted_form> fitted;
     for (const grammar_form& form : forms_of(rows, dependence)) {
-        fitted.push_back(fit_form(rows, form));
+        fitted.push_back(fit_form(span, left, form));
     }
     double most = 0.0;
     for (const fitted_form& form : fitted) {
@@ -222,7 +218,7 @@ fitted_form best_form(const joint_residual& rows, const signal_dependence& depen
     for (std::size_t k = 0; k < best.terms.size() && best.terms.size() > 1;) {
         grammar_form fewer = best.terms;
         fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));
-        const fitted_form without = fit_form(rows, fewer);
+        const fitted_form without = fit_form(span, left, fewer);
         if (without.explained >= best.explained - 0.5 * as_good) {
             best = without;
         } else {

@@ -5,6 +5,7 @@
 
 #include "link_parameters.hpp"
 #include "model_candidates.hpp"
+#include "regrouping.hpp"
 
 namespace idim {
 

@@ -1,7 +1,6 @@
 #include "traced_log.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -9,6 +8,7 @@
 #include "idim/effect_trace.hpp"
 #include "idim/recorded_states.hpp"
 #include "idim/zero_phase_filter.hpp"
+#include "link_parameters.hpp"
 
 namespace idim {
 
@@ -53,8 +53,7 @@ row_flags reversals_of(const traced_log& log, Eigen::Index joint) {
 }
 
 bool is_rigid(std::string_view name) {
-    constexpr std::array<std::string_view, 10> kinds = {"XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M"};
-    return std::any_of(kinds.begin(), kinds.end(), [&](std::string_view kind) {
+    return std::any_of(inertial_names.begin(), inertial_names.end(), [&](std::string_view kind) {
         return name.size() > kind.size() && name.substr(0, kind.size()) == kind &&
                (std::isdigit(static_cast<unsigned char>(name[kind.size()])) != 0 || name[kind.size()] == '_');
     });
