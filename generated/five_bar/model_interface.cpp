@@ -11,8 +11,9 @@
 #include "model.hpp"
 #include "regressor.hpp"
 #include "regroup.hpp"
+#include "closure.hpp"
 
-static_assert(IDIM_MODEL_ABI == 4, "this model was generated for another version of the runtime: regenerate it");
+static_assert(IDIM_MODEL_ABI == 5, "this model was generated for another version of the runtime: regenerate it");
 
 namespace model = idim_models::five_bar;
 
@@ -70,6 +71,10 @@ int forward_dynamics(const double* q, const double* qd, const double* tau, doubl
     return 0;
 }
 
+void closure(const double* q, double* closed) {
+    model::closure(q, closed);
+}
+
 model::batch_samples batch(const idim_samples& samples) {
     return {samples.count, samples.stride, samples.q, samples.qd, samples.qdd, samples.t, samples.temp};
 }
@@ -122,6 +127,8 @@ constexpr idim_model_interface interface = {
     nullptr,
     nullptr,
     nullptr,
+    1,
+    closure,
 };
 
 }  // namespace

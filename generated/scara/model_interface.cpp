@@ -12,7 +12,7 @@
 #include "regressor.hpp"
 #include "regroup.hpp"
 
-static_assert(IDIM_MODEL_ABI == 4, "this model was generated for another version of the runtime: regenerate it");
+static_assert(IDIM_MODEL_ABI == 5, "this model was generated for another version of the runtime: regenerate it");
 
 namespace model = idim_models::scara;
 
@@ -118,6 +118,8 @@ constexpr idim_model_interface interface = {
     parameter_is_per_log.data(),
     nullptr,
     nullptr,
+    nullptr,
+    0,
     nullptr,
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -19,6 +20,17 @@ struct manifest_joint {
     std::vector<std::pair<std::string, std::string>> row;
     std::optional<std::pair<double, double>> position;   ///< limits [rad or m]
     std::optional<double> velocity, effort, drive_gain;  ///< [rad/s or m/s], [N*m or N], [N*m or N per unit of v]
+};
+
+/// A closed loop as the robot description has it.
+struct manifest_loop {
+    struct point {
+        std::string link;               ///< name of its joint, or "base"
+        std::array<std::string, 3> at;  ///< expressions [m], in the frame of that joint
+    };
+    std::array<point, 2> cut;
+    std::array<std::string, 2> passive;  ///< names of the joints it determines
+    std::string assembly;                ///< "1", "-1" or "parallelogram"
 };
 
 struct manifest_effect {
@@ -41,6 +53,7 @@ struct manifest {
     std::vector<std::string> gravity;  ///< three expressions [m/s^2]
     std::vector<std::pair<std::string, double>> constants;
     std::vector<manifest_joint> joints;
+    std::vector<manifest_loop> loops;
     std::vector<manifest_effect> effects;
     std::vector<std::pair<std::string, operation_count>> operations;  ///< of each generated function
 };

@@ -333,6 +333,7 @@ template_context build_context(const robot_model& model, const file_origin& orig
     }
     context.uses_time = model.parameters.uses_time;
     context.uses_temperature = model.parameters.uses_temperature;
+    context.closures = static_cast<int>(model.tree.closures.size());
     set_effects(model, context);
     std::vector<model_function> functions;
     for (const function_plan& plan : plans()) {

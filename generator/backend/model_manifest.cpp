@@ -1,5 +1,7 @@
 #include "backend/model_manifest.hpp"
 
+#include "description/loop_reader.hpp"
+
 namespace idim::generator {
 
 namespace {
@@ -16,11 +18,15 @@ const char* to_string(joint_type type) {
     return "fixed";
 }
 
+std::string name_of(int joint, const robot_description& robot) {
+    return joint < 0 ? "base" : robot.joints[static_cast<std::size_t>(joint)].name;
+}
+
 manifest_joint describe(const joint_description& joint, bool is_driven, const robot_description& robot) {
     manifest_joint result;
     result.name = joint.name;
     result.type = to_string(joint.type);
-    result.antecedent = joint.antecedent < 0 ? "base" : robot.joints[static_cast<std::size_t>(joint.antecedent)].name;
+    result.antecedent = name_of(joint.antecedent, robot);
     result.driven = is_driven;
     result.position = joint.limits.position;
     result.velocity = joint.limits.velocity;
@@ -34,6 +40,17 @@ manifest_joint describe(const joint_description& joint, bool is_driven, const ro
             result.row.emplace_back(name, entry->text);
         }
     }
+    return result;
+}
+
+manifest_loop describe(const loop_description& loop, const robot_description& robot) {
+    manifest_loop result;
+    for (std::size_t side = 0; side < 2; ++side) {
+        const link_point& from = loop.cut[side];
+        result.cut[side] = {name_of(from.link, robot), {from.point[0].text, from.point[1].text, from.point[2].text}};
+        result.passive[side] = name_of(loop.passive[side], robot);
+    }
+    result.assembly = to_string(loop.assembly);
     return result;
 }
 
@@ -64,6 +81,9 @@ manifest describe(const robot_model& model, const template_context& context) {
     for (std::size_t j = 0; j < model.description.joints.size(); ++j) {
         const bool is_driven = model.tree.joints[j].coordinate >= 0;
         result.joints.push_back(describe(model.description.joints[j], is_driven, model.description));
+    }
+    for (const loop_description& loop : model.description.loops) {
+        result.loops.push_back(describe(loop, model.description));
     }
     for (std::size_t i = 0; i < model.effects.size(); ++i) {
         result.effects.push_back(describe(model.description.effects[i], model.effects[i], model.description));

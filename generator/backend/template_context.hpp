@@ -64,6 +64,7 @@ struct template_context {
     bool uses_temperature = false;
     bool uses_rigid_torque = false;
     bool has_elastic_joint = false;
+    int closures = 0;  ///< loops that do not close everywhere
     bool has_payload = false;
     std::vector<std::string> states;  ///< of effects: "z2"
     int sines = 0;                    ///< cosines and sines that the models share

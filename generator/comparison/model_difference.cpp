@@ -107,6 +107,34 @@ std::vector<entry_change> joint_changes(const manifest& before, const manifest& 
     return result;
 }
 
+/// By the joints that they determine.
+std::vector<entry_change> loop_changes(const manifest& before, const manifest& after) {
+    const auto name = [](const manifest_loop& loop) { return loop.passive[0] + ", " + loop.passive[1]; };
+    const auto entries_of = [](const manifest_loop& loop) {
+        entries result = {{"assembly", loop.assembly}};
+        for (const auto& [link, at] : loop.cut) {
+            result.emplace_back(&link == &loop.cut[0].link ? "cut" : "cut, other side",
+                                fmt::format("{} [{}]", link, fmt::join(at, ", ")));
+        }
+        return result;
+    };
+    const auto same_in = [&name](const std::vector<manifest_loop>& loops, const manifest_loop& loop) {
+        return std::find_if(loops.begin(), loops.end(),
+                            [&](const manifest_loop& other) { return name(other) == name(loop); });
+    };
+    std::vector<entry_change> result;
+    for (const manifest_loop& loop : after.loops) {
+        const auto old = same_in(before.loops, loop);
+        append(result, changes(name(loop), old == before.loops.end() ? entries{} : entries_of(*old), entries_of(loop)));
+    }
+    for (const manifest_loop& loop : before.loops) {
+        if (same_in(after.loops, loop) == after.loops.end()) {
+            append(result, changes(name(loop), entries_of(loop), {}));
+        }
+    }
+    return result;
+}
+
 /// An effect at one of the joints it acts on.
 struct effect_place {
     std::string name;  ///< "coupling_friction at j6 from j5"
@@ -298,8 +326,8 @@ bool model_difference::empty() const {
     });
     return same_operations && base_added.empty() && base_dropped.empty() && regrouped.empty() &&
            standard_added.empty() && standard_dropped.empty() && effects_added.empty() && effects_removed.empty() &&
-           effects_changed.empty() && constants.empty() && gravity.empty() && joints.empty() && columns.empty() &&
-           !not_comparable;
+           effects_changed.empty() && constants.empty() && gravity.empty() && joints.empty() && loops.empty() &&
+           columns.empty() && !not_comparable;
 }
 
 model_difference compare(const model_summary& before, const model_summary& after) {
@@ -314,6 +342,7 @@ model_difference compare(const model_summary& before, const model_summary& after
     };
     result.gravity = changes("", gravity(before.content), gravity(after.content));
     result.joints = joint_changes(before.content, after.content);
+    result.loops = loop_changes(before.content, after.content);
     result.columns = moved_columns(before, after);
     result.operations = operation_changes(before.content, after.content);
     result.not_comparable = reason_not_to_compare(before.content, after.content);

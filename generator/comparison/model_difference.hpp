@@ -47,7 +47,7 @@ struct model_difference {
     std::vector<regrouping_change> regrouped;
     std::vector<std::string> standard_added, standard_dropped;
     std::vector<manifest_effect> effects_added, effects_removed;  ///< each with the joints where it is new or gone
-    std::vector<entry_change> effects_changed, constants, gravity, joints;
+    std::vector<entry_change> effects_changed, constants, gravity, joints, loops;
     std::vector<column_move> columns;
     std::vector<operations_change> operations;  ///< every function, changed or not
     std::optional<std::string> not_comparable;  ///< why the two torques cannot be compared

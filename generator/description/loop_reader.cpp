@@ -112,6 +112,12 @@ std::vector<loop_description> read_loops(const yaml_value& written, std::vector<
     return loops;
 }
 
+std::string to_string(loop_assembly assembly) {
+    return assembly == loop_assembly::parallelogram ? "parallelogram"
+           : assembly == loop_assembly::clockwise   ? "-1"
+                                                    : "1";
+}
+
 std::string to_string(const loop_description& loop, const std::vector<joint_description>& joints) {
     const auto name = [&joints](int link) { return link < 0 ? "base" : joints[static_cast<std::size_t>(link)].name; };
     std::string text = "{cut: [";
@@ -119,12 +125,8 @@ std::string to_string(const loop_description& loop, const std::vector<joint_desc
         text += (&at == loop.cut.data() ? "{link: " : ", {link: ") + name(at.link) + ", point: [" + at.point[0].text +
                 ", " + at.point[1].text + ", " + at.point[2].text + "]}";
     }
-    text += "], passive: [" + name(loop.passive[0]) + ", " + name(loop.passive[1]) + "], assembly: ";
-    return text +
-           (loop.assembly == loop_assembly::parallelogram ? "parallelogram"
-            : loop.assembly == loop_assembly::clockwise   ? "-1"
-                                                          : "1") +
-           "}";
+    return text + "], passive: [" + name(loop.passive[0]) + ", " + name(loop.passive[1]) +
+           "], assembly: " + to_string(loop.assembly) + "}";
 }
 
 }  // namespace idim::generator

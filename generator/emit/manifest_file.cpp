@@ -2,11 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "idim/input_error.hpp"
+#include "emit/json_entry.hpp"
 #include "idim/model_interface.h"
 
 namespace idim::generator {
@@ -40,6 +38,14 @@ json joint_json(const manifest_joint& joint) {
     return result;
 }
 
+json loop_json(const manifest_loop& loop) {
+    json result = {{"cut", json::array()}, {"passive", loop.passive}, {"assembly", loop.assembly}};
+    for (const auto& [link, at] : loop.cut) {
+        result["cut"].push_back({{"link", link}, {"point", at}});
+    }
+    return result;
+}
+
 json effect_json(const manifest_effect& effect) {
     json result = {{"effect", effect.effect}, {"joints", effect.joints}};
     if (!effect.from.empty()) {
@@ -56,17 +62,22 @@ json to_json(const manifest& content) {
     json result = {{"generator", content.generator},   {"format", format},         {"interface", IDIM_MODEL_ABI},
                    {"robot", content.robot},           {"target", content.target}, {"cost", content.cost},
                    {"input_hash", content.input_hash}, {"files", content.files},   {"gravity", content.gravity},
-                   {"constants", json::object()},      {"joints", json::array()},  {"effects", json::array()},
-                   {"operations", json::object()}};
+                   {"constants", json::object()},      {"joints", json::array()}};
     for (const auto& [name, value] : content.constants) {
         result["constants"][name] = value;
     }
     for (const manifest_joint& joint : content.joints) {
         result["joints"].push_back(joint_json(joint));
     }
+    // Only where there are some: few robots have any.
+    for (const manifest_loop& loop : content.loops) {
+        result["loops"].push_back(loop_json(loop));
+    }
+    result["effects"] = json::array();
     for (const manifest_effect& effect : content.effects) {
         result["effects"].push_back(effect_json(effect));
     }
+    result["operations"] = json::object();
     for (const auto& [name, count] : content.operations) {
         result["operations"][name] = {
             {"mul", count.mul}, {"add", count.add}, {"div", count.div}, {"functions", count.functions}};
@@ -83,99 +94,6 @@ std::string lines_of(const json& value) {
     }
     return text.empty() ? "" : text + "\n  ";
 }
-
-/// Values of a JSON text that may be anything, with the place they stand in for messages.
-class json_entry {
-  public:
-    json_entry(const json& value, input_location where) : value_(value), where_(std::move(where)) {}
-
-    json_entry at(const std::string& key) const {
-        if (const std::optional<json_entry> found = find(key)) {
-            return *found;
-        }
-        const json_entry missing(value_, place(key));
-        missing.reject("an entry");
-    }
-    std::optional<json_entry> find(const std::string& key) const {
-        if (!value_.is_object()) {
-            reject("a map");
-        }
-        const auto found = value_.find(key);
-        return found == value_.end() ? std::nullopt : std::optional(json_entry(*found, place(key)));
-    }
-    std::vector<json_entry> items() const {
-        if (!value_.is_array()) {
-            reject("a list");
-        }
-        std::vector<json_entry> result;
-        for (const json& element : value_) {
-            result.emplace_back(element, place(std::to_string(result.size() + 1)));
-        }
-        return result;
-    }
-    std::vector<std::pair<std::string, json_entry>> entries() const {
-        if (!value_.is_object()) {
-            reject("a map");
-        }
-        std::vector<std::pair<std::string, json_entry>> result;
-        for (const auto& [key, element] : value_.items()) {
-            result.emplace_back(checked(key), json_entry(element, place(key)));
-        }
-        return result;
-    }
-    std::string text() const {
-        if (!value_.is_string()) {
-            reject("a text");
-        }
-        return checked(value_.get<std::string>());
-    }
-    std::vector<std::string> texts() const {
-        std::vector<std::string> result;
-        for (const json_entry& item : items()) {
-            result.push_back(item.text());
-        }
-        return result;
-    }
-    double number() const {
-        if (!value_.is_number() || !std::isfinite(value_.get<double>())) {
-            reject("a number");
-        }
-        return value_.get<double>();
-    }
-    bool flag() const {
-        if (!value_.is_boolean()) {
-            reject("true or false");
-        }
-        return value_.get<bool>();
-    }
-    int count() const {
-        constexpr double most = 1e9;
-        if (!value_.is_number_integer() || value_.get<double>() < 0.0 || value_.get<double>() > most) {
-            reject("a count");
-        }
-        return value_.get<int>();
-    }
-    [[noreturn]] void reject(const std::string& expected) const {
-        throw input_error(where_,
-                          "expected " + expected + ", written by another version of idim? regenerate the folder");
-    }
-
-  private:
-    input_location place(const std::string& key) const {
-        return {where_.file, where_.line, where_.field + (where_.field.empty() ? "" : ".") + key};
-    }
-    /// What is read is shown to people, and a control character would be an order to their terminal.
-    std::string checked(const std::string& text) const {
-        const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
-        if (std::any_of(text.begin(), text.end(), is_control)) {
-            reject("text without control characters");
-        }
-        return text;
-    }
-
-    const json& value_;
-    input_location where_;
-};
 
 std::optional<double> optional_number(const json_entry& entry, const std::string& key) {
     const auto found = entry.find(key);
@@ -205,6 +123,28 @@ manifest_joint read_joint(const json_entry& entry) {
     joint.effort = optional_number(entry, "effort");
     joint.drive_gain = optional_number(entry, "drive_gain");
     return joint;
+}
+
+manifest_loop read_loop(const json_entry& entry) {
+    const std::vector<json_entry> cut = entry.at("cut").items();
+    const std::vector<std::string> passive = entry.at("passive").texts();
+    if (cut.size() != 2) {
+        entry.at("cut").reject("two points");
+    }
+    if (passive.size() != 2) {
+        entry.at("passive").reject("two joints");
+    }
+    manifest_loop loop;
+    for (std::size_t side = 0; side < 2; ++side) {
+        const std::vector<std::string> point = cut[side].at("point").texts();
+        if (point.size() != 3) {
+            cut[side].at("point").reject("three expressions");
+        }
+        loop.cut[side] = {cut[side].at("link").text(), {point[0], point[1], point[2]}};
+        loop.passive[side] = passive[side];
+    }
+    loop.assembly = entry.at("assembly").text();
+    return loop;
 }
 
 manifest_effect read_effect(const json_entry& entry) {
@@ -269,6 +209,11 @@ manifest read_manifest(const std::string& text, const std::string& file) {
     }
     for (const json_entry& joint : root.at("joints").items()) {
         result.joints.push_back(read_joint(joint));
+    }
+    if (const auto loops = root.find("loops")) {
+        for (const json_entry& loop : loops->items()) {
+            result.loops.push_back(read_loop(loop));
+        }
     }
     for (const json_entry& effect : root.at("effects").items()) {
         result.effects.push_back(read_effect(effect));

@@ -325,7 +325,7 @@ void set_signals(context_data& result, const template_context& context) {
 }
 
 /// Parts that only some robots have.
-void set_effect_parts(context_data& result, const template_context& context) {
+void set_optional_parts(context_data& result, const template_context& context) {
     const bool has_states = !context.states.empty();
     const bool gives_rigid_torque = context.uses_rigid_torque || context.has_elastic_joint;
     const auto or_null = [](bool there, const char* name) { return there ? name : "nullptr"; };
@@ -348,6 +348,9 @@ void set_effect_parts(context_data& result, const template_context& context) {
     result.set("rigid_torque_function", or_null(gives_rigid_torque, "rigid_torque"));
     result.set("first_states_function", or_null(has_states, "first_states"));
     result.set("next_states_function", or_null(has_states, "next_states"));
+    result.set_flag("has_closures", context.closures > 0);
+    result.set("n_closures", std::to_string(context.closures));
+    result.set("closure_function", or_null(context.closures > 0, "closure"));
 }
 
 /// What every template may use.
@@ -372,7 +375,7 @@ context_data robot_values(const template_context& context, const std::string& fo
     result.set("base_parameters", parameters(context.base_parameters));
     result.set("standard_parameters", parameters(context.standard_parameters));
     set_signals(result, context);
-    set_effect_parts(result, context);
+    set_optional_parts(result, context);
     result.set_flag("uses_time", context.uses_time);
     result.set_flag("uses_temperature", context.uses_temperature);
     result.set("needs_time", context.uses_time ? "1" : "0");

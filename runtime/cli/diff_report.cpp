@@ -494,6 +494,7 @@ diff_report report(const model_comparison& comparison) {
         {"constants", {"constant", "old", "new"}, rows_of(difference.constants, false)},
         {"gravity", {"", "old", "new"}, rows_of(difference.gravity, false)},
         {"joints", {"joint", "entry", "old", "new"}, rows_of(difference.joints, true)},
+        {"loops", {"passive joints", "entry", "old", "new"}, rows_of(difference.loops, true)},
         {"base parameters added", {"name", "unit", "regroups"}, rows_of(difference.base_added)},
         {"base parameters dropped", {"name", "unit", "regroups"}, rows_of(difference.base_dropped)},
         {"base parameters regrouped", {"name", "old", "new"}, regrouping_rows(difference.regrouped)},
@@ -566,6 +567,7 @@ json to_json(const model_comparison& comparison) {
             {"constants", to_json(difference.constants, "constant")},
             {"gravity", to_json(difference.gravity, "gravity")},
             {"joints", to_json(difference.joints, "joint")},
+            {"loops", to_json(difference.loops, "loop")},
             {"regressor_columns", columns_json(comparison)},
             {"operations", operations_json(difference.operations)}};
 }

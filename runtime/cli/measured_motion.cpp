@@ -6,6 +6,7 @@
 
 #include "catalogue/effect_library.hpp"
 #include "idim/input_error.hpp"
+#include "idim/joint_space.hpp"
 #include "resources.hpp"
 
 namespace idim::cli {
@@ -50,10 +51,26 @@ log_columns columns_of(const loaded_robot& robot) {
     return columns;
 }
 
+namespace {
+
+void check_that_loops_close(const idim_model_interface& model, const idim::log& log) {
+    for (Eigen::Index k = 0; k < log.samples(); ++k) {
+        const Eigen::VectorXd q = log.q.row(k);
+        if (!loops_close(model, q.data())) {
+            throw input_error({log.file, 0, "q"},
+                              fmt::format("at t = {} s the loops of {} do not close, expected positions where they do",
+                                          log.t[k], model.robot));
+        }
+    }
+}
+
+}  // namespace
+
 std::vector<idim::log> read_logs(const loaded_robot& robot, const std::vector<std::string>& files) {
     std::vector<idim::log> logs;
     for (const std::string& file : files) {
         logs.push_back(read_log(file, columns_of(robot)));
+        check_that_loops_close(robot.model(), logs.back());
     }
     return logs;
 }

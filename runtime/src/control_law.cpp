@@ -1,8 +1,6 @@
 #include "idim/control_law.hpp"
 
-#include <cmath>
-#include <numbers>
-#include <random>
+#include "idim/joint_space.hpp"
 
 namespace idim {
 
@@ -42,17 +40,11 @@ Eigen::VectorXd control_law::torque(const control_sample& sample) {
 
 Eigen::VectorXd largest_inertia(const idim_model_interface& model, const Eigen::VectorXd& chi) {
     constexpr int configurations = 2000;
-    std::mt19937_64 random(1);
-    const int n = model.dof;
-    Eigen::VectorXd q(n);
-    Eigen::MatrixXd M(n, n);
-    Eigen::VectorXd largest = Eigen::VectorXd::Zero(n);
+    joint_space space(model);
+    Eigen::MatrixXd M(model.dof, model.dof);
+    Eigen::VectorXd largest = Eigen::VectorXd::Zero(model.dof);
     for (int s = 0; s < configurations; ++s) {
-        for (int j = 0; j < n; ++j) {
-            const double uniform = static_cast<double>(random() >> 11) * 0x1p-52 - 1.0;
-            q[j] = s == 0 ? 0.0 : (model.joint_is_prismatic[j] != 0 ? uniform : std::numbers::pi * uniform);
-        }
-        model.mass_matrix(q.data(), chi.data(), M.data());
+        model.mass_matrix(space.next().data(), chi.data(), M.data());
         largest = largest.cwiseMax(M.diagonal());
     }
     return largest;

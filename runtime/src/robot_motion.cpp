@@ -7,6 +7,8 @@
 #include <cmath>
 #include <functional>
 
+#include "idim/joint_space.hpp"
+
 namespace idim {
 
 namespace {
@@ -18,6 +20,8 @@ constexpr double slowest = 1e-12;
 constexpr const char* indefinite =
     "simulation at t = {:.4f} s: the inertia matrix is not positive definite at joint {}; the parameters are not "
     "physical";
+constexpr const char* open_loops =
+    "simulation at t = {:.4f} s, joint {}: the loops do not close at these positions; keep the reference where they do";
 constexpr const char* diverging =
     "simulation diverges at t = {:.4f} s, joint {}: lower the bandwidth or raise the rate of the control law";
 
@@ -128,7 +132,7 @@ void robot_motion::regularised_acceleration(const double* q, const double* qd, d
 void robot_motion::free_acceleration(const double* q, double t, const Eigen::VectorXd& tau, double* qdd) {
     const int joint = model_.forward_dynamics(q, speed_.data(), tau.data(), t, signals_.data(), chi_.data(), qdd);
     if (joint != 0) {
-        fail(t, std::clamp<int>(joint, 1, model_.dof) - 1, indefinite);
+        fail(t, std::clamp<int>(joint, 1, model_.dof) - 1, loops_close(model_, q) ? indefinite : open_loops);
         std::fill(qdd, qdd + n_, 0.0);
     }
 }

@@ -26,6 +26,7 @@ manifest full_manifest() {
     content.joints = {{"j1", "revolute", "base", true, {{"theta", "q + pi/2"}}, std::pair(-1.5, 2.5), 3.0, 40.0, 0.25},
                       {"j2", "prismatic", "j1", true, {{"alpha", "-pi/2"}, {"r", "q"}}, {}, {}, {}, {}},
                       {"tool", "fixed", "j2", false, {}, {}, {}, {}, {}}};
+    content.loops = {{{{{"tool", {"L", "0", "-0.1"}}, {"base", {"0.45", "0", "0"}}}}, {"j1", "j2"}, "parallelogram"}};
     content.effects = {{"stribeck_friction", {"j1"}, {}, {{"vs", 0.03}}, "Fs*exp(-(qd/vs)^2)*sign(qd)"},
                        {"joint_coupling", {"j1", "j2"}, {"j2", "j1"}, {}, "Iac*qdd_from"}};
     content.operations = {{"regressor", {14, 8, 0, 4}}, {"regroup", {1, 3, 0, 0}}};
@@ -68,6 +69,9 @@ const bad_manifest bad_manifests[] = {
     {"WithOneLimit", "/joints/0/position", "[1]", "joints.1.position: expected two numbers"},
     {"WithLimitsTheOtherWayRound", "/joints/0/position", "[1, 0]", "joints.1.position: expected two numbers"},
     {"WithATextAsLimit", "/joints/0/velocity", "\"fast\"", "joints.1.velocity: expected a number"},
+    {"WithALoopCutAtOnePoint", "/loops/0/cut", "[]", "loops.1.cut: expected two points"},
+    {"WithACutInThePlane", "/loops/0/cut/1/point", "[\"0\", \"0\"]", "loops.1.cut.2.point: expected three"},
+    {"WithALoopOfOnePassiveJoint", "/loops/0/passive", "[\"j1\"]", "loops.1.passive: expected two joints"},
     {"WithAnEffectNowhere", "/effects/0/joints", "", "effects.1.joints: expected an entry"},
     {"WithAnEffectFromFewerJoints", "/effects/1/from", "[\"j2\"]", "effects.2.from: expected as many joints"},
 };
@@ -83,6 +87,8 @@ TEST(ManifestFile, ReadsBackWhatWasWritten) {
     EXPECT_EQ(read.joints[0].drive_gain, 0.25);
     EXPECT_EQ(read.joints[1].row, full_manifest().joints[1].row);
     EXPECT_EQ(read.joints[1].velocity, std::nullopt);
+    EXPECT_EQ(read.loops[0].cut[0].at, full_manifest().loops[0].cut[0].at);
+    EXPECT_EQ(read.loops[0].passive, full_manifest().loops[0].passive);
     EXPECT_EQ(read.effects[1].from, (std::vector<std::string>{"j2", "j1"}));
     EXPECT_EQ(read.operations[0].second.functions, 4);
 }

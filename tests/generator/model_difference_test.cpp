@@ -59,6 +59,21 @@ TEST(ModelDifference, NamesTheCoefficientsThatAConstantChanges) {
     EXPECT_EQ(difference.regrouped[0].coefficients[0].after, 0.36);
 }
 
+TEST(ModelDifference, LoopsAreToldApartByTheJointsTheyDetermine) {
+    const manifest_loop loop = {{{{"j2", {"L", "0", "0"}}, {"base", {"1", "0", "0"}}}}, {"j1", "j2"}, "1"};
+    model_summary before = two_links();
+    before.content.loops = {loop};
+    EXPECT_EQ(texts(compare(before, two_links()).loops),
+              (names{"j1, j2|assembly|1|", "j1, j2|cut|j2 [L, 0, 0]|", "j1, j2|cut, other side|base [1, 0, 0]|"}));
+    model_summary after = before;
+    after.content.loops[0].assembly = "-1";
+    after.content.loops[0].cut[1].at[1] = "0.2";
+    const model_difference difference = compare(before, after);
+    EXPECT_FALSE(difference.empty());
+    EXPECT_EQ(texts(difference.loops),
+              (names{"j1, j2|assembly|1|-1", "j1, j2|cut, other side|base [1, 0, 0]|base [1, 0.2, 0]"}));
+}
+
 TEST(ModelDifference, RoundingOfACoefficientIsNoChange) {
     model_summary after = two_links();
     after.base[0].coefficients[3] = 0.25 * (1.0 + 4e-16);

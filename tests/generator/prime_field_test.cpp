@@ -1,6 +1,7 @@
 #include "base_parameters/prime_field.hpp"
 
 #include <cln/integer.h>
+#include <cln/numtheory.h>
 #include <gtest/gtest.h>
 
 #include <random>
@@ -51,6 +52,20 @@ TEST(PrimeField, ZeroHasNoInverse) {
     EXPECT_THROW(prime_field().inverse(), std::domain_error);
     EXPECT_THROW(prime_field(std::uint64_t{3}) / prime_field(), std::domain_error);
     EXPECT_THROW(prime_field(rational(1) / rational(static_cast<unsigned long>(p))), std::domain_error);
+}
+
+// Which elements have a root is Jacobi's symbol, by CLN.
+TEST(PrimeField, RootsAreOfTheSquaresAndOfNothingElse) {
+    std::mt19937_64 random(63);
+    const cln::cl_I modulus(static_cast<unsigned long>(p));
+    for (int k = 0; k < 500; ++k) {
+        const prime_field a(random());
+        const std::optional<prime_field> root = a.root();
+        EXPECT_EQ(root.has_value(), cln::jacobi(integer(a), modulus) == 1) << a.value();
+        EXPECT_TRUE(!root || *root * *root == a) << a.value();
+        EXPECT_TRUE((a * a).root().has_value()) << a.value();
+    }
+    EXPECT_EQ(prime_field().root(), prime_field());
 }
 
 TEST(PrimeField, RationalsKeepTheirSumsAndProducts) {

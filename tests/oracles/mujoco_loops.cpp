@@ -200,7 +200,8 @@ joint_state mujoco_loops::motion(const joint_state& active) const {
         place(q + h * qd);
         return jacobian() * qd;
     };
-    constexpr double h = 1e-3;
+    // Passive joints turn fast near a singular position: steps of a milliradian.
+    const double h = 1e-3 / std::max(1.0, qd.cwiseAbs().maxCoeff());
     const Eigen::VectorXd gap = (8.0 * (moving(h) - moving(-h)) - (moving(2.0 * h) - moving(-2.0 * h))) / (12.0 * h);
     place(q);
     Eigen::VectorXd qdd = G * active.qdd;

@@ -4,7 +4,7 @@
 #ifndef IDIM_MODEL_INTERFACE_H
 #define IDIM_MODEL_INTERFACE_H
 
-#define IDIM_MODEL_ABI 4
+#define IDIM_MODEL_ABI 5
 
 /* What forward_dynamics returns where it found no accelerations that give the torque. */
 #define IDIM_NOT_CONVERGED (-1)
@@ -84,6 +84,10 @@ struct idim_model_interface {
     /* States [n_states] at the first sample of a motion, and at the sample dt [s] after this one; null if there are none */
     void (*first_states)(const double* q, const double* qd, const double* qdd, double t, const double* temp, double* start);
     void (*next_states)(const double* q, const double* qd, const double* qdd, double t, const double* temp, double dt, double* next);
+    int n_closures; /* loops that close at some positions only; at others every function gives NaN */
+    /* closed [n_closures]: squared sine of the angle at the cut of each such loop, where it closes; not above 0 elsewhere. Null if there
+     * are none */
+    void (*closure)(const double* q, double* closed);
 };
 
 /* The one symbol a loaded model exports. */
