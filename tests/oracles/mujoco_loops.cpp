@@ -10,6 +10,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "oracles/mujoco_inertial.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace idim::test {
@@ -42,14 +43,10 @@ std::string body(const std::vector<tree_row>& rows, const std::vector<rigid_link
     const Eigen::Isometry3d frame = frame_of(rows[j].row);
     const Eigen::Vector3d p = frame.translation();
     const Eigen::Quaterniond turned(frame.linear());
-    const Eigen::Matrix3d& I = links[j].central_inertia;
-    const Eigen::Vector3d& c = links[j].centre;
     std::string text = fmt::format(
-        "<body name=\"b{}\" pos=\"{}\" quat=\"{}\">\n<joint name=\"j{}\" type=\"{}\" axis=\"0 0 {}\"/>\n<inertial "
-        "pos=\"{}\" mass=\"{:.17g}\" fullinertia=\"{}\"/>\n",
-        j, numbers({p.x(), p.y(), p.z()}), numbers({turned.w(), turned.x(), turned.y(), turned.z()}), j,
-        rows[j].row.prismatic ? "slide" : "hinge", rows[j].row.rate, numbers({c.x(), c.y(), c.z()}), links[j].mass,
-        numbers({I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2)}));
+        "<body name=\"b{}\" pos=\"{}\" quat=\"{}\">\n<joint name=\"j{}\" type=\"{}\" axis=\"0 0 {}\"/>\n{}\n", j,
+        numbers({p.x(), p.y(), p.z()}), numbers({turned.w(), turned.x(), turned.y(), turned.z()}), j,
+        rows[j].row.prismatic ? "slide" : "hinge", rows[j].row.rate, mujoco_inertial(links[j]));
     for (std::size_t k = 0; k < rows.size(); ++k) {
         text += rows[k].antecedent == static_cast<int>(j) ? body(rows, links, k) : "";
     }

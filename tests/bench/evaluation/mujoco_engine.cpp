@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 #include <mujoco/mujoco.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cstring>
 #include <stdexcept>
 
 #include "evaluation/engine.hpp"
+#include "oracles/mujoco_inertial.hpp"
 
 namespace idim::bench {
 
@@ -18,18 +18,6 @@ Eigen::Isometry3d frame_of(const test::mdh_row& row) {
     return Eigen::Isometry3d(AngleAxisd(row.gamma, Vector3d::UnitZ())) * Eigen::Translation3d(0.0, 0.0, row.b) *
            AngleAxisd(row.alpha, Vector3d::UnitX()) * Eigen::Translation3d(row.d, 0.0, 0.0) *
            AngleAxisd(row.theta, Vector3d::UnitZ()) * Eigen::Translation3d(0.0, 0.0, row.r);
-}
-
-/// In principal axes: MuJoCo's own search for them stops at 1e-7.
-std::string inertial_text(const test::rigid_link& link) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(link.central_inertia);
-    Eigen::Matrix3d axes = principal.eigenvectors();
-    axes.col(2) *= axes.determinant() > 0.0 ? 1.0 : -1.0;
-    const Eigen::Quaterniond turn(axes);
-    const Eigen::Vector3d& I = principal.eigenvalues();
-    return fmt::format("<inertial mass='{}' pos='{} {} {}' quat='{} {} {} {}' diaginertia='{} {} {}'/>", link.mass,
-                       link.centre.x(), link.centre.y(), link.centre.z(), turn.w(), turn.x(), turn.y(), turn.z(), I[0],
-                       I[1], I[2]);
 }
 
 std::string xml_of(const rigid_robot& robot) {
@@ -46,7 +34,7 @@ std::string xml_of(const rigid_robot& robot) {
         text += fmt::format("<body pos='{} {} {}' quat='{} {} {} {}'>", p.x(), p.y(), p.z(), turn.w(), turn.x(),
                             turn.y(), turn.z());
         text += fmt::format("<joint type='{}' axis='0 0 1'/>", robot.table.rows[j].prismatic ? "slide" : "hinge");
-        text += inertial_text(link);
+        text += test::mujoco_inertial(link);
     }
     for (std::size_t j = 0; j < robot.links.size(); ++j) {
         text += "</body>";
