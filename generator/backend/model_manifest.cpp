@@ -18,15 +18,11 @@ const char* to_string(joint_type type) {
     return "fixed";
 }
 
-std::string name_of(int joint, const robot_description& robot) {
-    return joint < 0 ? "base" : robot.joints[static_cast<std::size_t>(joint)].name;
-}
-
 manifest_joint describe(const joint_description& joint, bool is_driven, const robot_description& robot) {
     manifest_joint result;
     result.name = joint.name;
     result.type = to_string(joint.type);
-    result.antecedent = name_of(joint.antecedent, robot);
+    result.antecedent = link_name(robot.joints, joint.antecedent);
     result.driven = is_driven;
     result.position = joint.limits.position;
     result.velocity = joint.limits.velocity;
@@ -47,8 +43,9 @@ manifest_loop describe(const loop_description& loop, const robot_description& ro
     manifest_loop result;
     for (std::size_t side = 0; side < 2; ++side) {
         const link_point& from = loop.cut[side];
-        result.cut[side] = {name_of(from.link, robot), {from.point[0].text, from.point[1].text, from.point[2].text}};
-        result.passive[side] = name_of(loop.passive[side], robot);
+        result.cut[side] = {link_name(robot.joints, from.link),
+                            {from.point[0].text, from.point[1].text, from.point[2].text}};
+        result.passive[side] = link_name(robot.joints, loop.passive[side]);
     }
     result.assembly = to_string(loop.assembly);
     return result;
@@ -58,7 +55,7 @@ manifest_effect describe(const effect_use& use, const effect_description& effect
     manifest_effect result{use.effect, {}, {}, {use.shape.begin(), use.shape.end()}, law_of(effect)};
     const auto add_names = [&robot](const std::vector<int>& joints, std::vector<std::string>& names) {
         for (const int j : joints) {
-            names.push_back(robot.joints[static_cast<std::size_t>(j)].name);
+            names.push_back(link_name(robot.joints, j));
         }
     };
     add_names(use.joints, result.joints);

@@ -107,29 +107,32 @@ std::vector<entry_change> joint_changes(const manifest& before, const manifest& 
     return result;
 }
 
-/// By the joints that they determine.
+std::string name_of(const manifest_loop& loop) {
+    return fmt::format("{}", fmt::join(loop.passive, ", "));
+}
+
+entries entries_of(const manifest_loop& loop) {
+    const auto text = [](const manifest_loop::point& from) {
+        return fmt::format("{} [{}]", from.link, fmt::join(from.at, ", "));
+    };
+    return {{"assembly", loop.assembly}, {"cut", text(loop.cut[0])}, {"cut, other side", text(loop.cut[1])}};
+}
+
+/// What is written of the loop that determines the same joints; nothing where there is none.
+entries same_loop(const manifest& content, const manifest_loop& loop) {
+    const auto found = std::find_if(content.loops.begin(), content.loops.end(),
+                                    [&loop](const manifest_loop& other) { return other.passive == loop.passive; });
+    return found == content.loops.end() ? entries{} : entries_of(*found);
+}
+
 std::vector<entry_change> loop_changes(const manifest& before, const manifest& after) {
-    const auto name = [](const manifest_loop& loop) { return loop.passive[0] + ", " + loop.passive[1]; };
-    const auto entries_of = [](const manifest_loop& loop) {
-        entries result = {{"assembly", loop.assembly}};
-        for (const auto& [link, at] : loop.cut) {
-            result.emplace_back(&link == &loop.cut[0].link ? "cut" : "cut, other side",
-                                fmt::format("{} [{}]", link, fmt::join(at, ", ")));
-        }
-        return result;
-    };
-    const auto same_in = [&name](const std::vector<manifest_loop>& loops, const manifest_loop& loop) {
-        return std::find_if(loops.begin(), loops.end(),
-                            [&](const manifest_loop& other) { return name(other) == name(loop); });
-    };
     std::vector<entry_change> result;
     for (const manifest_loop& loop : after.loops) {
-        const auto old = same_in(before.loops, loop);
-        append(result, changes(name(loop), old == before.loops.end() ? entries{} : entries_of(*old), entries_of(loop)));
+        append(result, changes(name_of(loop), same_loop(before, loop), entries_of(loop)));
     }
     for (const manifest_loop& loop : before.loops) {
-        if (same_in(after.loops, loop) == after.loops.end()) {
-            append(result, changes(name(loop), entries_of(loop), {}));
+        if (same_loop(after, loop).empty()) {
+            append(result, changes(name_of(loop), entries_of(loop), {}));
         }
     }
     return result;

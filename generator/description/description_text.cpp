@@ -40,9 +40,9 @@ std::string names_text(const std::vector<int>& indices, const std::vector<joint_
 std::string joint_text(const joint_description& joint, const std::vector<joint_description>& joints) {
     static constexpr const char* types[] = {"revolute", "prismatic", "fixed"};
     std::string text = "  - {name: " + joint.name + ", type: " + types[static_cast<int>(joint.type)] +
-                       ", antecedent: " + (joint.antecedent < 0 ? "base" : joints[joint.antecedent].name) +
-                       ", gamma: " + joint.gamma.text + ", b: " + joint.b.text + ", alpha: " + joint.alpha.text +
-                       ", d: " + joint.d.text + ", theta: " + joint.theta.text + ", r: " + joint.r.text;
+                       ", antecedent: " + link_name(joints, joint.antecedent) + ", gamma: " + joint.gamma.text +
+                       ", b: " + joint.b.text + ", alpha: " + joint.alpha.text + ", d: " + joint.d.text +
+                       ", theta: " + joint.theta.text + ", r: " + joint.r.text;
     text += joint.massless ? ", massless: true" : "";
     std::string limits;
     const auto add_limit = [&](const std::string& name, const std::string& value) {

@@ -119,13 +119,12 @@ std::string to_string(loop_assembly assembly) {
 }
 
 std::string to_string(const loop_description& loop, const std::vector<joint_description>& joints) {
-    const auto name = [&joints](int link) { return link < 0 ? "base" : joints[static_cast<std::size_t>(link)].name; };
     std::string text = "{cut: [";
     for (const link_point& at : loop.cut) {
-        text += (&at == loop.cut.data() ? "{link: " : ", {link: ") + name(at.link) + ", point: [" + at.point[0].text +
-                ", " + at.point[1].text + ", " + at.point[2].text + "]}";
+        text += (&at == loop.cut.data() ? "{link: " : ", {link: ") + link_name(joints, at.link) + ", point: [" +
+                at.point[0].text + ", " + at.point[1].text + ", " + at.point[2].text + "]}";
     }
-    return text + "], passive: [" + name(loop.passive[0]) + ", " + name(loop.passive[1]) +
+    return text + "], passive: [" + link_name(joints, loop.passive[0]) + ", " + link_name(joints, loop.passive[1]) +
            "], assembly: " + to_string(loop.assembly) + "}";
 }
 

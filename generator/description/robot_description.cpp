@@ -547,6 +547,10 @@ bool has_own_coordinate(const joint_description& joint) {
     return false;
 }
 
+std::string link_name(const std::vector<joint_description>& joints, int link) {
+    return link < 0 ? "base" : joints[static_cast<std::size_t>(link)].name;
+}
+
 std::string parameter_label(const std::vector<joint_description>& joints, int joint) {
     if (!has_own_coordinate(joints[joint])) {
         return "_" + joints[joint].name;

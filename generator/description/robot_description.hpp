@@ -118,6 +118,9 @@ robot_description read_robot(const std::string& file);
 /// passive one does whose `q` a loop determines.
 bool has_own_coordinate(const joint_description& joint);
 
+/// The name of a joint, which is that of its link, or "base" for -1.
+std::string link_name(const std::vector<joint_description>& joints, int link);
+
 /// Behind the name of every parameter of this joint and its link: the number of its coordinate from 1, or else _<name>.
 std::string parameter_label(const std::vector<joint_description>& joints, int joint);
 
