@@ -54,7 +54,7 @@ log_columns columns_of(const loaded_robot& robot) {
 namespace {
 
 void check_that_loops_close(const idim_model_interface& model, const idim::log& log) {
-    for (Eigen::Index k = 0; k < log.samples(); ++k) {
+    for (Eigen::Index k = 0; model.n_closures > 0 && k < log.samples(); ++k) {
         const Eigen::VectorXd q = log.q.row(k);
         if (!loops_close(model, q.data())) {
             throw input_error({log.file, 0, "q"},

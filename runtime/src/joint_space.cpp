@@ -10,7 +10,7 @@ bool loops_close(const idim_model_interface& model, const double* q, double leas
     }
     Eigen::VectorXd closed(model.n_closures);
     model.closure(q, closed.data());
-    return (closed.array() >= least).all();
+    return (closed.array() > least).all();
 }
 
 joint_space::joint_space(const idim_model_interface& model) : model_(model), q_(Eigen::VectorXd::Zero(model.dof)) {}

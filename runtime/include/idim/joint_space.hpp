@@ -7,7 +7,7 @@
 
 namespace idim {
 
-/// Whether all loops close at positions q [n], the squared sines of the angles at their cuts at least `least`.
+/// Whether all loops close at positions q [n], the squared sines of the angles at their cuts above `least`.
 bool loops_close(const idim_model_interface& model, const double* q, double least = 0.0);
 
 /// Positions of a robot spread evenly over revolute joints by a turn and prismatic ones from -1 to 1 m, the first of
