@@ -18,7 +18,7 @@ namespace {
 
 using json = nlohmann::json;
 
-/// Consistent links: each parameter as those of two bars with rotors of a tenth of their inertia would give.
+/// Of a desk-top robot's size; M is positive definite wherever the simulation goes, or it would end there.
 const std::map<std::string, double> truth = {{"ZZ1R", 0.02},   {"Fv1", 0.05},     {"Fc1", 0.1},      {"ZZ2R", 0.03},
                                              {"Fv2", 0.04},    {"Fc2", 0.08},     {"ZZ_j3R", 0.004}, {"MX_j3R", 0.03},
                                              {"MY_j3", 0.002}, {"ZZ_j4R", 0.003}, {"MY_j4", -0.001}};
@@ -68,7 +68,8 @@ TEST_F(LoopRobot, IsIdentifiedFromItsOwnSimulation) {
         ASSERT_EQ(result["parameters"].size(), truth.size());
         for (const json& parameter : result["parameters"]) {
             const std::string name = parameter["name"];
-            // Four deviations: eleven parameters by two methods, and one draw.
+            // One draw of eleven parameters, no statement of coverage: the friction of j1, of which filtered reversals
+            // take a few parts in a thousand, lies up to 3.8 deviations off in others.
             EXPECT_NEAR(parameter["value"].get<double>(), truth.at(name), 4.0 * parameter["std"].get<double>())
                 << method << " " << name;
         }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <random>
 
+#include "support/noise.hpp"
 #include "tracing/effect_tracer.hpp"
 #include "tracing/shape_search.hpp"
 
@@ -57,18 +58,6 @@ traced_log log_of(const Eigen::VectorXd& added, bool held_back) {
     return log;
 }
 
-/// Noise of unit deviation, each row `memory` times the one before plus what is new.
-Eigen::VectorXd noise(double memory, std::mt19937_64& random) {
-    std::normal_distribution<double> normal;
-    Eigen::VectorXd values(rows_in_log);
-    double state = normal(random);
-    for (double& value : values) {
-        state = memory * state + std::sqrt(1.0 - memory * memory) * normal(random);
-        value = state;
-    }
-    return values;
-}
-
 Eigen::VectorXd sine(double frequency, double phase = 0.0) {
     const Eigen::ArrayXd t = Eigen::ArrayXd::LinSpaced(rows_in_log, 0.0, (rows_in_log - 1) / row_rate);
     return (2.0 * M_PI * frequency * t + phase).sin().matrix();
@@ -80,7 +69,7 @@ effect_term term_at(double frequency, double phase = 0.0) {
 
 TEST(EffectEvidence, GainOfAProjectedColumnIsWhatItRemovesFromTheLoss) {
     std::mt19937_64 random(1);
-    const std::vector<traced_log> logs = {log_of(noise(0.5, random) + 0.3 * sine(1.1), false)};
+    const std::vector<traced_log> logs = {log_of(ar1_noise(rows_in_log, 0.5, random) + 0.3 * sine(1.1), false)};
     const trace_fit fit = fit_with_own_noise(logs, {});
     const effect_term term = term_at(1.1);
     Eigen::MatrixXd A(rows_in_log, 4);
@@ -102,7 +91,7 @@ TEST(EffectEvidence, PartialFOnEffectiveRowsAlarmsAsOftenAsItSaysUnderCorrelated
     int alarms = 0;
     int naive_alarms = 0;
     for (int i = 0; i < draws; ++i) {
-        const std::vector<traced_log> logs = {log_of(noise(0.8, random), false)};
+        const std::vector<traced_log> logs = {log_of(ar1_noise(rows_in_log, 0.8, random), false)};
         const trace_fit fit = fit_with_own_noise(logs, {});
         const auto candidate = std::make_shared<sine_candidate>(phase(random), 0.31);
         alarms += test_on_fitted(fit, {candidate, {}}, false).p_value < 0.05 ? 1 : 0;
@@ -118,7 +107,7 @@ TEST(EffectEvidence, PartialFOnEffectiveRowsAlarmsAsOftenAsItSaysUnderCorrelated
 
 TEST(EffectEvidence, ShapeSearchFindsTheFrequencyOfAWeakSine) {
     std::mt19937_64 random(3);
-    const std::vector<traced_log> logs = {log_of(noise(0.3, random) + 0.5 * sine(3.37), false)};
+    const std::vector<traced_log> logs = {log_of(ar1_noise(rows_in_log, 0.3, random) + 0.5 * sine(3.37), false)};
     const trace_fit fit = fit_with_own_noise(logs, {});
     const effect_evidence found = search_shape(fit, std::make_shared<sine_candidate>(), 0.2);
     // The bound of Cramer and Rao for a sine of known phase: sqrt(6 / (2 n)) / (pi T A) = 0.0015 Hz here; four of
@@ -131,7 +120,7 @@ TEST(EffectEvidence, OnlyLookAlikesAreConfusable) {
     std::mt19937_64 random(4);
     std::vector<traced_log> logs;
     for (const bool held_back : {false, true}) {
-        logs.push_back(log_of(noise(0.3, random) + 0.6 * sine(2.0) + 0.6 * sine(4.0), held_back));
+        logs.push_back(log_of(ar1_noise(rows_in_log, 0.3, random) + 0.6 * sine(2.0) + 0.6 * sine(4.0), held_back));
     }
     const trace_fit fit = fit_with_own_noise(logs, {});
     effect_survey all;

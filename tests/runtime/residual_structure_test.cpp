@@ -9,6 +9,7 @@
 #include <random>
 #include <set>
 
+#include "support/noise.hpp"
 #include "tracing/structure_proposal.hpp"
 
 namespace idim::test {
@@ -17,18 +18,6 @@ namespace {
 
 constexpr Eigen::Index rows_in_log = 500;
 constexpr double row_rate = 15.0;  // Hz
-
-/// Noise of unit deviation, each row `memory` times the one before plus what is new.
-Eigen::VectorXd noise(double memory, std::mt19937_64& random) {
-    std::normal_distribution<double> normal;
-    Eigen::VectorXd values(rows_in_log);
-    double state = normal(random);
-    for (double& value : values) {
-        state = memory * state + std::sqrt(1.0 - memory * memory) * normal(random);
-        value = state;
-    }
-    return values;
-}
 
 /// Two joints along sums of sines, `which` other ones in each log; their models are inertia, friction and an offset.
 /// The rows are all samples, none of them at a reversal.
@@ -65,7 +54,7 @@ std::vector<traced_log> noisy_logs(double memory, std::mt19937_64& random) {
     std::vector<traced_log> logs = {moving_log(0, false), moving_log(1, true)};
     for (traced_log& log : logs) {
         for (Eigen::VectorXd& Y : log.rows.Y) {
-            Y += noise(memory, random);
+            Y += ar1_noise(rows_in_log, memory, random);
         }
     }
     return logs;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "idim/observation.hpp"
+#include "support/noise.hpp"
 
 namespace idim::test {
 
@@ -82,24 +83,6 @@ inline observation scara_rows(const Eigen::VectorXd& chi = scara_truth()) {
     rows.n_base = 8;
     rows.blocks = {scara_block(0.0, 400, 20.0, chi), scara_block(100.0, 400, 20.0, chi)};
     return rows;
-}
-
-inline Eigen::VectorXd white_noise(Eigen::Index n, std::mt19937_64& random) {
-    std::normal_distribution<double> normal;
-    Eigen::VectorXd e(n);
-    for (double& value : e) {
-        value = normal(random);
-    }
-    return e;
-}
-
-/// Stationary e_k = phi e_{k-1} + eps_k of unit variance.
-inline Eigen::VectorXd ar1_noise(Eigen::Index n, double phi, std::mt19937_64& random) {
-    Eigen::VectorXd e = white_noise(n, random);
-    for (Eigen::Index k = 1; k < n; ++k) {
-        e[k] = phi * e[k - 1] + std::sqrt(1.0 - phi * phi) * e[k];
-    }
-    return e;
 }
 
 /// One second-order section of a Butterworth low-pass by the bilinear transformation, cut-off as a fraction of the
