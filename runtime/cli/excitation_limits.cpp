@@ -96,7 +96,7 @@ void set_positions(const std::vector<std::string>& texts, const idim_model_inter
 /// Limits of the description; positions NaN and all else infinite where it has none.
 motion_limits declared_limits(const generator::robot_description& description, const std::vector<int>& driven) {
     const auto n = static_cast<Eigen::Index>(driven.size());
-    motion_limits limits{Eigen::VectorXd::Constant(n, NAN), Eigen::VectorXd::Constant(n, NAN),
+    motion_limits limits{Eigen::VectorXd::Constant(n, NAN),      Eigen::VectorXd::Constant(n, NAN),
                          Eigen::VectorXd::Constant(n, infinite), Eigen::VectorXd::Constant(n, infinite),
                          Eigen::VectorXd::Constant(n, infinite), {}};
     for (Eigen::Index j = 0; j < n; ++j) {

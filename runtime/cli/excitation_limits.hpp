@@ -22,11 +22,11 @@ struct limit_options {
 /// Options --position, --velocity, --acceleration, --torque, --workspace, --parameters.
 void add_limit_options(CLI::App& command, limit_options& options);
 
-/// The robot under the limits of its description, what the options say put in their place. Torques are limited where the
-/// base parameters are known: from --parameters, else from the a-priori parameters of the description. Throws
+/// The robot under the limits of its description, what the options say put in their place. Torques are limited where
+/// the base parameters are known: from --parameters, else from the a-priori parameters of the description. Throws
 /// input_error where a position or velocity limit is missing or leaves no room, an option or a box names a joint that
-/// the robot does not have, or the model needs what no reference tells (states of effects, closed loops). The robot must
-/// outlive the result.
+/// the robot does not have, or the model needs what no reference tells (states of effects, closed loops). The robot
+/// must outlive the result.
 limited_robot limited(const loaded_robot& robot, const std::string& robot_file, const limit_options& options);
 
 }  // namespace idim::cli

@@ -24,7 +24,8 @@ std::vector<poor_parameter> poor_parameters(const excitation_quality& quality, c
         const double share =
             chi.size() == 0 ? 1.0 : std::abs(chi[k]) * quality.independent_torque[k] / quality.torque(chi);
         if (!(quality.inflation[k] <= largest_inflation)) {
-            poor.push_back({k, fmt::format("deviation {:.3g} times that of the parameter alone", quality.inflation[k])});
+            poor.push_back(
+                {k, fmt::format("deviation {:.3g} times that of the parameter alone", quality.inflation[k])});
         } else if (!(share >= smallest_torque_share)) {
             poor.push_back({k, fmt::format("{:.2g} % of the torque", 100.0 * share)});
         }
@@ -104,10 +105,11 @@ json parameters_json(const excitation_report& report, const limited_robot& robot
 }
 
 void print_gain(const char* what, const excitation_quality& own, const compared_form& form) {
-    fmt::print("  {} ({:g} s, {} sinusoids): condition number {:.4g}, {:.4g} in units: {:.3g} and {:.3g} times this one\n",
-               what, form.period, form.sinusoids, form.quality.scaled_condition_number, form.quality.condition_number,
-               form.quality.scaled_condition_number / own.scaled_condition_number,
-               form.quality.condition_number / own.condition_number);
+    fmt::print(
+        "  {} ({:g} s, {} sinusoids): condition number {:.4g}, {:.4g} in units: {:.3g} and {:.3g} times this one\n",
+        what, form.period, form.sinusoids, form.quality.scaled_condition_number, form.quality.condition_number,
+        form.quality.scaled_condition_number / own.scaled_condition_number,
+        form.quality.condition_number / own.condition_number);
 }
 
 }  // namespace
@@ -175,8 +177,8 @@ void print(const excitation_report& report, const limited_robot& robot, const st
         fmt::print("  no parameter is poorly excited\n");
     }
     if (!robot.limits_torque()) {
-        fmt::print("  torques not limited: {}\n", robot.chi.size() == 0 ? "the parameters are not known (--parameters)"
-                                                                          : "no limits are given");
+        fmt::print("  torques not limited: {}\n",
+                   robot.chi.size() == 0 ? "the parameters are not known (--parameters)" : "no limits are given");
     }
 }
 

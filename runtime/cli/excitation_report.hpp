@@ -31,9 +31,9 @@ struct excitation_report {
     excitation_quality quality;
     limit_breach nearest;
     std::vector<poor_parameter> poor;
-    /// The published form over the whole length of the optimised motion as one period, under the same ranges and speeds;
-    /// and with its bands raised until speeds or accelerations reach their limits. Empty where that length holds no
-    /// period of a limit frequency.
+    /// The published form over the whole length of the optimised motion as one period, under the same ranges and
+    /// speeds; and with its bands raised until speeds or accelerations reach their limits. Empty where that length
+    /// holds no period of a limit frequency.
     std::optional<compared_form> published, published_fast;
 };
 

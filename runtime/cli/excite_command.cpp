@@ -39,7 +39,7 @@ volatile std::sig_atomic_t interrupted = 0;
 class interrupt_watch {
   public:
     interrupt_watch() {
-        struct sigaction action{};
+        struct sigaction action {};
         action.sa_handler = [](int) { interrupted = 1; };
         action.sa_flags = static_cast<int>(SA_RESETHAND);
         sigaction(SIGINT, &action, &before_);
@@ -49,7 +49,7 @@ class interrupt_watch {
     interrupt_watch& operator=(const interrupt_watch&) = delete;
 
   private:
-    struct sigaction before_{};
+    struct sigaction before_ {};
 };
 
 /// A line on standard error at most every two seconds, and what the user says by an interrupt.
@@ -60,11 +60,10 @@ class progress_line {
     bool operator()(const search_progress& progress) {
         if (progress.seconds >= next_) {
             next_ = progress.seconds + 2.0;
-            const std::string best =
-                std::isnan(progress.best) ? "no motion within the limits yet"
-                : criterion_ == excitation_criterion::condition
-                    ? fmt::format("condition number {:.2f}", progress.best)
-                    : fmt::format("log det {:.2f}", progress.best);
+            const std::string best = std::isnan(progress.best) ? "no motion within the limits yet"
+                                     : criterion_ == excitation_criterion::condition
+                                         ? fmt::format("condition number {:.2f}", progress.best)
+                                         : fmt::format("log det {:.2f}", progress.best);
             fmt::print(stderr, "idim: start {} of {}, {} evaluations, {:.0f} s: {}\n", progress.start, progress.starts,
                        progress.evaluations, progress.seconds, best);
         }
@@ -103,10 +102,9 @@ excitation_plan form_of(const excite_options& options, const limited_robot& robo
     form.connection_time = options.connection;
     form.rate = rate_of(options);
     const double lowest = limit_frequencies(robot.limits).minCoeff();
-    form.series.period = options.period > 0.0 ? options.period
-                         : options.form == "optimised"
-                             ? optimised_period
-                             : std::ceil(sinusoids_of(options, robot.model) / lowest);
+    form.series.period = options.period > 0.0          ? options.period
+                         : options.form == "optimised" ? optimised_period
+                                                       : std::ceil(sinusoids_of(options, robot.model) / lowest);
     require_whole_samples(form.series.period, form.rate, "--period");
     require_whole_samples(form.rest_time, form.rate, "--rest");
     require_whole_samples(form.connection_time, form.rate, "--connection");
@@ -134,8 +132,8 @@ rest_choice rest_of(const excite_options& options, const limited_robot& robot) {
 }
 
 excitation_plan published_plan(const excite_options& options, const limited_robot& robot, excitation_plan plan) {
-    plan.series = make_multisine(
-        robot.limits, {plan.series.period, sinusoids_of(options, robot.model), options.search.seed});
+    plan.series =
+        make_multisine(robot.limits, {plan.series.period, sinusoids_of(options, robot.model), options.search.seed});
     choose_start(robot, plan);
     // Scaled to the range it is exactly at its limit.
     const limit_breach breach = largest_breach(robot, plan);
@@ -191,9 +189,10 @@ int run(const excite_options& options) {
 }
 
 void add_search_options(CLI::App& command, excite_options& options) {
-    command.add_option("--criterion", options.criterion,
-                       "of optimised: condition (default; condition number of the regressor with columns of norm one) "
-                       "or information (-log det)")
+    command
+        .add_option("--criterion", options.criterion,
+                    "of optimised: condition (default; condition number of the regressor with columns of norm one) "
+                    "or information (-log det)")
         ->check(CLI::IsMember({"condition", "information"}));
     command.add_option("--harmonics", options.search.harmonics, "of optimised: terms of each series; default 10")
         ->check(CLI::Range(1, 200));
@@ -201,8 +200,9 @@ void add_search_options(CLI::App& command, excite_options& options) {
         ->check(CLI::Range(1, 100000));
     command.add_option("--evaluations", options.search.evaluations, "of optimised: of each start; default 300")
         ->check(CLI::Range(3, 1000000));
-    command.add_option("--time-limit", options.search.seconds,
-                       "of optimised [s]; default 120. The result is the same everywhere if this is not reached")
+    command
+        .add_option("--time-limit", options.search.seconds,
+                    "of optimised [s]; default 120. The result is the same everywhere if this is not reached")
         ->check(CLI::PositiveNumber);
 }
 
@@ -217,12 +217,12 @@ void add_excite_command(CLI::App& app, action& chosen) {
         ->add_option("--form", options->form,
                      "optimised (default; Fourier series) or multisine (as published: equal amplitudes, random phases)")
         ->check(CLI::IsMember({"optimised", "multisine"}));
-    command->add_option("--period", options->period,
-                        "[s]; default 20, of multisine: long enough for its sinusoids")
+    command->add_option("--period", options->period, "[s]; default 20, of multisine: long enough for its sinusoids")
         ->check(CLI::PositiveNumber);
     command->add_option("--periods", options->periods, "default 12")->check(CLI::Range(1, 100000));
-    command->add_option("--sinusoids", options->sinusoids,
-                        "of multisine, for each joint; default: 7 more than base parameters, as published")
+    command
+        ->add_option("--sinusoids", options->sinusoids,
+                     "of multisine, for each joint; default: 7 more than base parameters, as published")
         ->check(CLI::Range(1, 100000));
     command->add_option("--seed", options->search.seed, "of phases and random starts; default 1");
     command->add_option("--rest", options->rest, "at rest before and after [s]; default 4")

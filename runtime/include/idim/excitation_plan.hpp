@@ -13,12 +13,12 @@ namespace idim {
 /// Each part takes a whole number of samples.
 struct excitation_plan {
     fourier_series series;
-    Eigen::VectorXd rest;         ///< [n] position before and after
-    double start = 0.0;           ///< instant of the series at which its first period begins [s]
+    Eigen::VectorXd rest;  ///< [n] position before and after
+    double start = 0.0;    ///< instant of the series at which its first period begins [s]
     int periods = 1;
-    double rest_time = 0.0;       ///< at either end [s]
-    double connection_time = 0.0; ///< at either end [s]
-    double rate = 0.0;            ///< samples per second
+    double rest_time = 0.0;        ///< at either end [s]
+    double connection_time = 0.0;  ///< at either end [s]
+    double rate = 0.0;             ///< samples per second
 
     /// 2 rests, 2 connections and the periods [s].
     double duration() const;

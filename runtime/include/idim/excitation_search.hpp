@@ -29,17 +29,17 @@ struct search_options {
     excitation_criterion criterion = excitation_criterion::condition;
     std::uint64_t seed = 1;
     int starts = 6;
-    int evaluations = 300;  ///< of each start
-    double seconds = 120.0; ///< at most; the result is the same on every machine if this is not reached
+    int evaluations = 300;   ///< of each start
+    double seconds = 120.0;  ///< at most; the result is the same on every machine if this is not reached
     std::function<bool(const search_progress&)> proceed;  ///< called at every evaluation; false stops the search
 };
 
 struct search_result {
-    bool found = false;      ///< a motion within the limits
-    excitation_plan plan;    ///< the best one, if found
-    limit_breach breach;     ///< what the least bad motion breaks, if not found
-    int starts = 0;          ///< begun
-    bool stopped = false;    ///< by the caller
+    bool found = false;    ///< a motion within the limits
+    excitation_plan plan;  ///< the best one, if found
+    limit_breach breach;   ///< what the least bad motion breaks, if not found
+    int starts = 0;        ///< begun
+    bool stopped = false;  ///< by the caller
     bool out_of_time = false;
 };
 

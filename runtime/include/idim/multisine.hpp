@@ -25,8 +25,8 @@ struct multisine_options {
 /// Throws std::invalid_argument where a joint has no multiple below its limit frequency.
 fourier_series make_multisine(const motion_limits& limits, const multisine_options& options);
 
-/// The same with the band of each joint raised, above its limit frequency, until its largest speed or acceleration is at
-/// its limit: what the form can do within the limits.
+/// The same with the band of each joint raised, above its limit frequency, until its largest speed or acceleration is
+/// at its limit: what the form can do within the limits.
 fourier_series make_fast_multisine(const motion_limits& limits, const multisine_options& options);
 
 }  // namespace idim

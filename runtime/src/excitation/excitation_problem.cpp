@@ -99,8 +99,7 @@ Eigen::Index excitation_problem::constraints() const {
 }
 
 motion_samples excitation_problem::motion(const Eigen::VectorXd& u) const {
-    const Eigen::MatrixXd coefficients =
-        u.reshaped(width_, robot_.model.dof).cwiseProduct(scale_);
+    const Eigen::MatrixXd coefficients = u.reshaped(width_, robot_.model.dof).cwiseProduct(scale_);
     motion_samples result{t_, basis_[0] * coefficients, basis_[1] * coefficients, basis_[2] * coefficients};
     result.q.rowwise() += robot_.limits.centre().transpose();
     return result;
@@ -174,9 +173,8 @@ void excitation_problem::add_joint_limits(const motion_samples& samples, const s
             Eigen::ArrayXd weight;
             const Eigen::ArrayXd share = (signal(samples, order).col(j).array() - centre) / limit;
             value.constraints[row] = smooth_size(share, form.sharpness, weight) - 1.0;
-            value.jacobian.col(row).segment(j * width_, width_) =
-                scale_.col(j).cwiseProduct(basis_[static_cast<std::size_t>(order)].transpose() *
-                                           (weight / limit).matrix());
+            value.jacobian.col(row).segment(j * width_, width_) = scale_.col(j).cwiseProduct(
+                basis_[static_cast<std::size_t>(order)].transpose() * (weight / limit).matrix());
             ++row;
         }
     }

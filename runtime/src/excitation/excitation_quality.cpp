@@ -41,8 +41,12 @@ double excitation_quality::torque(const Eigen::VectorXd& chi) const {
 excitation_quality judge_excitation(const idim_model_interface& model, const motion_samples& motion) {
     const Eigen::Index b = model.n_base;
     const auto count = static_cast<double>(motion.t.size());
-    excitation_quality quality{infinite, infinite, -infinite, Eigen::VectorXd::Constant(b, infinite),
-                               Eigen::VectorXd::Zero(b), Eigen::MatrixXd::Zero(b, b)};
+    excitation_quality quality{infinite,
+                               infinite,
+                               -infinite,
+                               Eigen::VectorXd::Constant(b, infinite),
+                               Eigen::VectorXd::Zero(b),
+                               Eigen::MatrixXd::Zero(b, b)};
     const Eigen::MatrixXd W = sampled_regressor(model, motion);
     if (!W.allFinite() || W.rows() * model.dof < b) {
         return quality;
@@ -57,8 +61,7 @@ excitation_quality judge_excitation(const idim_model_interface& model, const mot
     quality.condition_number = ratio(Eigen::JacobiSVD<Eigen::MatrixXd>(R).singularValues());
     quality.scaled_condition_number = ratio(Eigen::JacobiSVD<Eigen::MatrixXd>(scaled).singularValues());
     if (std::isfinite(quality.scaled_condition_number)) {
-        const Eigen::MatrixXd inverse =
-            scaled.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(b, b));
+        const Eigen::MatrixXd inverse = scaled.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(b, b));
         quality.inflation = inverse.rowwise().norm();
         quality.independent_torque = norm.cwiseQuotient(quality.inflation) / std::sqrt(count);
         quality.log_determinant =

@@ -40,8 +40,7 @@ gram_value criterion_of(const Eigen::MatrixXd& G, excitation_criterion criterion
         result.value = -0.5 * result.figure / b;
         slope = -0.5 / (b * values);
     }
-    const Eigen::MatrixXd by_S =
-        eigen.eigenvectors() * slope.matrix().asDiagonal() * eigen.eigenvectors().transpose();
+    const Eigen::MatrixXd by_S = eigen.eigenvectors() * slope.matrix().asDiagonal() * eigen.eigenvectors().transpose();
     result.derivative = inverse.asDiagonal() * by_S * inverse.asDiagonal();
     // log det G does not change with the scaling of the columns; else S = D G D with D of the diagonal of G.
     if (criterion == excitation_criterion::condition) {
