@@ -61,7 +61,7 @@ class progress_line {
         if (progress.seconds >= next_) {
             next_ = progress.seconds + 2.0;
             const std::string best = std::isnan(progress.best) ? "no motion within the limits yet"
-                                     : criterion_ == excitation_criterion::condition
+                                     : criterion_ != excitation_criterion::information
                                          ? fmt::format("condition number {:.2f}", progress.best)
                                          : fmt::format("log det {:.2f}", progress.best);
             fmt::print(stderr, "idim: start {} of {}, {} evaluations, {:.0f} s: {}\n", progress.start, progress.starts,
@@ -148,8 +148,9 @@ excitation_plan published_plan(const excite_options& options, const limited_robo
 
 search_result found_plan(const excite_options& options, const limited_robot& robot, const excitation_plan& form) {
     search_options search = options.search;
-    search.criterion =
-        options.criterion == "condition" ? excitation_criterion::condition : excitation_criterion::information;
+    search.criterion = options.criterion == "condition"  ? excitation_criterion::condition
+                       : options.criterion == "unscaled" ? excitation_criterion::unscaled_condition
+                                                         : excitation_criterion::information;
     search.proceed = progress_line(search.criterion);
     const interrupt_watch watch;
     search_result result = search_excitation(robot, form, search);
@@ -192,8 +193,8 @@ void add_search_options(CLI::App& command, excite_options& options) {
     command
         .add_option("--criterion", options.criterion,
                     "of optimised: condition (default; condition number of the regressor with columns of norm one) "
-                    "or information (-log det)")
-        ->check(CLI::IsMember({"condition", "information"}));
+                    "unscaled (columns in the units of the parameters) or information (-log det)")
+        ->check(CLI::IsMember({"condition", "unscaled", "information"}));
     command.add_option("--harmonics", options.search.harmonics, "of optimised: terms of each series; default 10")
         ->check(CLI::Range(1, 200));
     command.add_option("--starts", options.search.starts, "of optimised: random starts; default 6")

@@ -11,8 +11,9 @@ namespace idim {
 
 /// What is minimised.
 enum class excitation_criterion {
-    condition,   ///< condition number of W with columns of norm one
-    information  ///< -log det of W'W
+    condition,           ///< condition number of W with columns of norm one
+    unscaled_condition,  ///< condition number of W in the units of the parameters
+    information          ///< -log det of W'W
 };
 
 /// How far a search is.

@@ -158,6 +158,25 @@ problem_value excitation_problem::evaluate(const Eigen::VectorXd& u, const smoot
     return value;
 }
 
+problem_value excitation_problem::figure(const Eigen::VectorXd& u) const {
+    const motion_samples samples = motion(u);
+    problem_value value;
+    value.breach = largest_breach(robot_, samples).share;
+    value.figure = criterion(sampled_regressor(robot_.model, samples), 1.0).figure;
+    return value;
+}
+
+gram_value excitation_problem::criterion(const Eigen::MatrixXd& W, double power) const {
+    const Eigen::Index b = robot_.model.n_base;
+    Eigen::MatrixXd G = Eigen::MatrixXd::Zero(b, b);
+    for (Eigen::Index i = 0; i < robot_.model.dof; ++i) {
+        G.selfadjointView<Eigen::Lower>().rankUpdate(W.middleCols(i * b, b).transpose(),
+                                                     1.0 / static_cast<double>(W.rows()));
+    }
+    const Eigen::MatrixXd whole = G.selfadjointView<Eigen::Lower>();
+    return criterion_of(whole, criterion_, power);
+}
+
 void excitation_problem::add_joint_limits(const motion_samples& samples, const smoothing& form,
                                           problem_value& value) const {
     const motion_limits& limits = robot_.limits;
@@ -211,12 +230,7 @@ void excitation_problem::add_model(const motion_samples& samples, const smoothin
     const Eigen::Index b = robot_.model.n_base;
     const auto count = static_cast<double>(t_.size());
     const Eigen::MatrixXd W = sampled_regressor(robot_.model, samples);
-    Eigen::MatrixXd G = Eigen::MatrixXd::Zero(b, b);
-    for (Eigen::Index i = 0; i < n; ++i) {
-        G.selfadjointView<Eigen::Lower>().rankUpdate(W.middleCols(i * b, b).transpose(), 1.0 / count);
-    }
-    const Eigen::MatrixXd whole = G.selfadjointView<Eigen::Lower>();
-    const gram_value criterion = criterion_of(whole, criterion_, form.power);
+    const gram_value criterion = this->criterion(W, form.power);
     value.objective = criterion.value;
     value.figure = criterion.figure;
     Eigen::MatrixXd by_W(W.rows(), W.cols());

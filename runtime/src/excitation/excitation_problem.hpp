@@ -34,6 +34,8 @@ class excitation_problem {
     Eigen::Index variables() const { return robot_.model.dof * width_; }
     Eigen::Index constraints() const;
     problem_value evaluate(const Eigen::VectorXd& u, const smoothing& form) const;
+    /// Figure and breach alone.
+    problem_value figure(const Eigen::VectorXd& u) const;
     fourier_series series(const Eigen::VectorXd& u) const;
     /// A motion around `rest`, its shape drawn from `shape` [v, each in -1..1] and reduced until it keeps the limits,
     /// or to nothing.
@@ -44,6 +46,7 @@ class excitation_problem {
   private:
     motion_samples motion(const Eigen::VectorXd& u) const;
     Eigen::VectorXd at(const Eigen::VectorXd& rest) const;
+    gram_value criterion(const Eigen::MatrixXd& W, double power) const;
     void add_joint_limits(const motion_samples& motion, const smoothing& form, problem_value& value) const;
     void add_boxes(const motion_samples& motion, const smoothing& form, problem_value& value) const;
     void add_model(const motion_samples& motion, const smoothing& form, problem_value& value) const;

@@ -47,6 +47,7 @@ class search {
 
     const problem_value& at(unsigned size, const double* u);
     void consider(const Eigen::VectorXd& u, const problem_value& value);
+    void consider_reduced(const Eigen::VectorXd& u, double breach);
     void finish_start();
     bool proceeds();
     double seconds() const { return std::chrono::duration<double>(clock::now() - begin_).count(); }
@@ -100,8 +101,9 @@ const problem_value& search::at(unsigned size, const double* u) {
 }
 
 void search::consider(const Eigen::VectorXd& u, const problem_value& value) {
-    const double badness = options_.criterion == excitation_criterion::condition ? value.figure : -value.figure;
+    const double badness = options_.criterion == excitation_criterion::information ? -value.figure : value.figure;
     if (!std::isfinite(badness) || value.breach > kept_distance) {
+        consider_reduced(u, value.breach);
         return;
     }
     if (!of_start_ || badness < of_start_->badness) {
@@ -109,6 +111,22 @@ void search::consider(const Eigen::VectorXd& u, const problem_value& value) {
         if (std::isnan(progress_.best) || badness < best_) {
             progress_.best = value.figure;
         }
+    }
+}
+
+/// The motion on the way from rest to one beyond the limits that keeps them, where it could be the best.
+void search::consider_reduced(const Eigen::VectorXd& u, double breach) {
+    constexpr int most_reductions = 3;
+    double factor = 1.0;
+    for (int k = 0; k < most_reductions && std::isfinite(breach); ++k) {
+        factor /= 1.0 + std::max(breach - kept_distance, 0.001) + 0.001;
+        const Eigen::VectorXd reduced = problem_.reduced(u, form_.rest, factor);
+        const problem_value value = problem_.figure(reduced);
+        if (value.breach <= kept_distance) {
+            consider(reduced, value);
+            return;
+        }
+        breach = value.breach;
     }
 }
 

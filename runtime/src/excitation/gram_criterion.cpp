@@ -24,7 +24,9 @@ double spectral_value(const Eigen::ArrayXd& eigenvalues, double p, Eigen::ArrayX
 
 gram_value criterion_of(const Eigen::MatrixXd& G, excitation_criterion criterion, double p) {
     // A column that is zero gets a norm that keeps all finite.
-    const Eigen::VectorXd norm = G.diagonal().cwiseMax(1e-30).cwiseSqrt();
+    const bool is_scaled = criterion != excitation_criterion::unscaled_condition;
+    const Eigen::VectorXd norm =
+        is_scaled ? Eigen::VectorXd(G.diagonal().cwiseMax(1e-30).cwiseSqrt()) : Eigen::VectorXd::Ones(G.rows());
     const Eigen::VectorXd inverse = norm.cwiseInverse();
     const Eigen::MatrixXd S = inverse.asDiagonal() * G * inverse.asDiagonal();
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(S);
@@ -32,7 +34,7 @@ gram_value criterion_of(const Eigen::MatrixXd& G, excitation_criterion criterion
     gram_value result;
     Eigen::ArrayXd slope;
     const auto b = static_cast<double>(G.rows());
-    if (criterion == excitation_criterion::condition) {
+    if (criterion != excitation_criterion::information) {
         result.value = spectral_value(values, p, slope);
         result.figure = std::sqrt(values.maxCoeff() / values.minCoeff());
     } else {

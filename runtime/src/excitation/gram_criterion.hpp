@@ -10,11 +10,11 @@ namespace idim {
 struct gram_value {
     double value = 0.0;
     Eigen::MatrixXd derivative;  ///< by G, symmetric
-    double figure = 0.0;         ///< condition number of the scaled columns, or log det G
+    double figure = 0.0;         ///< condition number of W, or log det G
 };
 
 /// condition: (log tr S^p + log tr S^-p) / 2p over the scaled Gram matrix S, which tends to the log of the condition
-/// number for large p. information: -log det G / 2b, p is not used.
+/// number for large p; unscaled_condition: the same over G. information: -log det G / 2b, p is not used.
 gram_value criterion_of(const Eigen::MatrixXd& G, excitation_criterion criterion, double p);
 
 }  // namespace idim
