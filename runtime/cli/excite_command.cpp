@@ -192,10 +192,10 @@ int run(const excite_options& options) {
 void add_search_options(CLI::App& command, excite_options& options) {
     command
         .add_option("--criterion", options.criterion,
-                    "of optimised: condition (default; condition number of the regressor with columns of norm one) "
+                    "of optimised: condition (default; condition number of the regressor with columns of norm one), "
                     "unscaled (columns in the units of the parameters) or information (-log det)")
         ->check(CLI::IsMember({"condition", "unscaled", "information"}));
-    command.add_option("--harmonics", options.search.harmonics, "of optimised: terms of each series; default 10")
+    command.add_option("--harmonics", options.search.harmonics, "of optimised: terms of each series; default 16")
         ->check(CLI::Range(1, 200));
     command.add_option("--starts", options.search.starts, "of optimised: random starts; default 6")
         ->check(CLI::Range(1, 100000));

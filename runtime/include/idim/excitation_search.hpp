@@ -26,7 +26,7 @@ struct search_progress {
 };
 
 struct search_options {
-    int harmonics = 10;  ///< of the Fourier series of each joint
+    int harmonics = 16;  ///< of the Fourier series of each joint
     excitation_criterion criterion = excitation_criterion::condition;
     std::uint64_t seed = 1;
     int starts = 6;
