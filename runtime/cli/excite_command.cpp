@@ -135,9 +135,8 @@ excitation_plan published_plan(const excite_options& options, const limited_robo
     plan.series =
         make_multisine(robot.limits, {plan.series.period, sinusoids_of(options, robot.model), options.search.seed});
     choose_start(robot, plan);
-    // Scaled to the range it is exactly at its limit.
     const limit_breach breach = largest_breach(robot, plan);
-    if (breach.share > 1e-9) {
+    if (breach.share > 0.0) {
         throw input_error({"", 0, breach.limit},
                           fmt::format("the published form goes {:.3g} % past it, expected wider limits, a longer "
                                       "--connection, another --seed, or --form optimised",

@@ -49,8 +49,10 @@ TEST(Multisine, IsThePublishedSumOfSinusoidsInItsRanges) {
             EXPECT_NEAR(std::hypot(term.sine, term.cosine), std::hypot(terms[0].sine, terms[0].cosine), 1e-12);
         }
         EXPECT_EQ(multiples.size(), 55U);
-        // The largest value was looked for on another grid of instants.
-        EXPECT_NEAR((motion.q.col(j).array() - limits.centre()[j]).abs().maxCoeff(), limits.half_range()[j], 1e-3);
+        // The range is used up to 3e-5 and never left; these instants see the peaks to 1e-3 at least.
+        const double largest = (motion.q.col(j).array() - limits.centre()[j]).abs().maxCoeff();
+        EXPECT_NEAR(largest, limits.half_range()[j], 1e-3);
+        EXPECT_LE(largest, limits.half_range()[j]);
         EXPECT_LT(motion.qd.col(j).cwiseAbs().maxCoeff(), limits.velocity[j]);
     }
     const fourier_series other = make_multisine(limits, {380.0, 55, 4});

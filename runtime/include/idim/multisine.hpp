@@ -12,10 +12,10 @@ namespace idim {
 Eigen::VectorXd limit_frequencies(const motion_limits& limits);
 
 /// The published excitation (section III.B there): for each joint `count` sinusoids of equal amplitudes and random
-/// phases around the centre of its range, their sum scaled so that its largest value is half the range. Frequencies are
-/// `count` different multiples of 1 / period, spread evenly from the first to the last below the limit frequency; fewer
-/// where there are not so many. No speed passes its limit, since that of a band-limited signal is at most 2 pi f times
-/// its largest value (Bernstein's inequality).
+/// phases around the centre of its range, their sum scaled so that its largest value is half the range (less 3e-5).
+/// Frequencies are `count` different multiples of 1 / period, spread evenly from the first to the last below the limit
+/// frequency; fewer where there are not so many. No speed passes its limit, since that of a band-limited signal is at
+/// most 2 pi f times its largest value (Bernstein's inequality).
 struct multisine_options {
     double period = 0.0;  ///< [s]
     int count = 0;        ///< of sinusoids for each joint
