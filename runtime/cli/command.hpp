@@ -27,6 +27,7 @@ void add_simulate_command(CLI::App& app, action& chosen);
 void add_diagnose_command(CLI::App& app, action& chosen);
 void add_refine_command(CLI::App& app, action& chosen);
 void add_export_command(CLI::App& app, action& chosen);
+void add_excite_command(CLI::App& app, action& chosen);
 
 /// Adds --json FILE (`-` for standard output).
 void add_json_option(CLI::App& command, std::string& file);

@@ -44,6 +44,7 @@ int main(int argc, char** argv) {
     add_base_command(app, chosen);
     add_generate_command(app, chosen);
     add_diff_command(app, chosen);
+    add_excite_command(app, chosen);
     add_simulate_command(app, chosen);
     add_identify_command(app, chosen);
     add_validate_command(app, chosen);

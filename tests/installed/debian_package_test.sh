@@ -51,7 +51,7 @@ SayWhatTheyNeed() {
     for library in libc6 libginac libcln libyaml-cpp libssl; do
         grep -q "\b$library" <<<"$needed" || fail "$library is missing in: $needed"
     done
-    same "Depends of libidim-dev" "idim (= $VERSION), libeigen3-dev, libfmt-dev, zlib1g-dev, libssl-dev" \
+    same "Depends of libidim-dev" "idim (= $VERSION), libeigen3-dev, libfmt-dev, zlib1g-dev, libssl-dev, libnlopt-dev" \
         "$(dpkg-deb -f "$development" Depends)"
     [ "$(dpkg-deb -f "$command" Installed-Size)" -lt 10000 ] || fail "idim takes more than 10 MB"
 }
