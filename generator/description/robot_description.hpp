@@ -1,9 +1,11 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -17,6 +19,11 @@ struct expression_text {
     std::string text = "0";
     input_location where;
 };
+
+inline constexpr std::size_t most_joints = 200;
+
+/// Of the name of a control law that is a user's header.
+inline constexpr std::string_view header_ending = ".hpp";
 
 enum class joint_type { revolute, prismatic, fixed };
 
@@ -88,7 +95,7 @@ struct control_description {
     input_location where;
 };
 
-/// Whether the law is the user's own.
+/// Whether the law is the user's own: its name is that of a header.
 bool is_header(const control_description& control);
 
 /// What the user wrote, checked for form but not for meaning: the only stage that knows the file format (FORMATS.md).
@@ -117,6 +124,9 @@ robot_description read_robot(const std::string& file);
 /// Whether the joint's variable names its own coordinate `q`: otherwise it is fixed or moves with other joints, as a
 /// passive one does whose `q` a loop determines.
 bool has_own_coordinate(const joint_description& joint);
+
+/// Joints that have a coordinate of their own, in order.
+std::vector<int> driven_joints(const std::vector<joint_description>& joints);
 
 /// The name of a joint, which is that of its link, or "base" for -1.
 std::string link_name(const std::vector<joint_description>& joints, int link);

@@ -210,6 +210,14 @@ double yaml_value::number() const {
     return *value;
 }
 
+double yaml_value::positive_number() const {
+    const double value = number();
+    if (value <= 0.0) {
+        reject("a positive number");
+    }
+    return value;
+}
+
 std::vector<yaml_value> yaml_value::items(std::string_view expected) const {
     if (!is_list()) {
         reject(expected);
@@ -253,6 +261,10 @@ void yaml_value::reject(std::string_view expected) const {
     throw input_error(where_, "expected " + std::string(expected) + ", got " + what_stands_here(*node_));
 }
 
+input_location in_field(const input_location& map, const std::string& key) {
+    return {map.file, map.line, path_of(map.field, key)};
+}
+
 yaml_fields::yaml_fields(const yaml_value& map, std::initializer_list<std::string_view> allowed) : where_(map.where()) {
     std::string names;
     for (const std::string_view name : allowed) {
@@ -279,8 +291,7 @@ std::optional<yaml_value> yaml_fields::find(std::string_view key) const {
 yaml_value yaml_fields::require(std::string_view key, std::string_view expected) const {
     const std::optional<yaml_value> value = find(key);
     if (!value) {
-        throw input_error({where_.file, where_.line, path_of(where_.field, key)},
-                          "missing, expected " + std::string(expected));
+        throw input_error(in_field(where_, std::string(key)), "missing, expected " + std::string(expected));
     }
     return *value;
 }

@@ -42,6 +42,7 @@ class yaml_value {
 
     /// A finite number.
     double number() const;
+    double positive_number() const;
 
     std::vector<yaml_value> items(std::string_view expected) const;
 
@@ -55,6 +56,9 @@ class yaml_value {
     std::shared_ptr<const yaml_node> node_;
     input_location where_;
 };
+
+/// The place of the entry `key` of the map at `map`.
+input_location in_field(const input_location& map, const std::string& key);
 
 /// A map whose keys are known beforehand.
 class yaml_fields {

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "command.hpp"
+#include "diff_json.hpp"
 #include "diff_report.hpp"
 
 namespace idim::cli {

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace idim::cli {
 
@@ -14,14 +13,6 @@ using generator::entry_change;
 using generator::operation_count;
 using generator::parameter_context;
 using rows = std::vector<std::vector<std::string>>;
-
-const char* joint_name(const model_comparison& comparison, int joint) {
-    return comparison.after.compiled.interface().joint_names[joint];
-}
-
-const char* unit_of(const model_comparison& comparison, int joint) {
-    return comparison.after.compiled.interface().joint_is_prismatic[joint] != 0 ? "N" : "N*m";
-}
 
 std::string origin(const compared_model& model) {
     const generator::manifest& content = model.summary.content;
@@ -42,15 +33,15 @@ std::string torque_finding(const model_comparison& comparison) {
             return fmt::format(
                 "the same up to rounding at {} random states; the largest difference is {:.1e} of the largest torque "
                 "of {}",
-                torques.states, relative.value, joint_name(comparison, relative.joint));
+                torques.states, relative.value, comparison.joint_name(relative.joint));
         case torque_verdict::different:
             break;
     }
     return fmt::format(
         "different, at {} random states with standard parameters from [-1, 1] by up to {:.3g} {} at {} and {:.3g} % of "
         "the largest torque of {}",
-        torques.states, absolute.value, unit_of(comparison, absolute.joint), joint_name(comparison, absolute.joint),
-        100.0 * relative.value, joint_name(comparison, relative.joint));
+        torques.states, absolute.value, comparison.unit(absolute.joint), comparison.joint_name(absolute.joint),
+        100.0 * relative.value, comparison.joint_name(relative.joint));
 }
 
 std::string one_side_finding(const torque_comparison& torques) {
@@ -180,7 +171,7 @@ std::string moved_by(const std::string& name, const std::vector<one_sided_parame
     std::vector<std::string> joints;
     for (const one_sided_parameter& parameter : moved) {
         for (const int joint : parameter.name == name ? parameter.joints : std::vector<int>{}) {
-            joints.emplace_back(joint_name(comparison, joint));
+            joints.emplace_back(comparison.joint_name(joint));
         }
     }
     return joints.empty() ? "no joint" : fmt::format("{}", fmt::join(joints, ", "));
@@ -239,7 +230,7 @@ rows largest_rows(const model_comparison& comparison) {
             return fmt::format("[{:.6g}]", fmt::join(values.data(), values.data() + values.size(), ", "));
         };
         return std::vector<std::string>{value,
-                                        joint_name(comparison, largest.joint),
+                                        comparison.joint_name(largest.joint),
                                         vector(largest.q),
                                         vector(largest.qd),
                                         vector(largest.qdd),
@@ -248,7 +239,7 @@ rows largest_rows(const model_comparison& comparison) {
     };
     const torque_difference& absolute = comparison.torques->absolute;
     const torque_difference& relative = comparison.torques->relative;
-    const std::string newtons = fmt::format("{:.3g} {}", absolute.value, unit_of(comparison, absolute.joint));
+    const std::string newtons = fmt::format("{:.3g} {}", absolute.value, comparison.unit(absolute.joint));
     const std::string percent = fmt::format("{:.3g} %", 100.0 * relative.value);
     if (absolute.joint == relative.joint) {  // then it is the same state, too
         return {row(newtons + ", " + percent, absolute)};
@@ -256,217 +247,7 @@ rows largest_rows(const model_comparison& comparison) {
     return {row(newtons, absolute), row(percent, relative)};
 }
 
-std::string code(std::string text) {
-    std::replace(text.begin(), text.end(), '`', '\'');
-    std::string result;
-    for (const char c : text) {
-        result += c == '|' ? "\\|" : std::string(1, c);
-    }
-    return "`" + result + "`";
-}
-
-/// Text in which nothing is markup.
-std::string escaped(const std::string& text) {
-    std::string result;
-    for (const char c : text) {
-        const bool is_markup = std::string("\\`*_{}[]<>#|~&!").find(c) != std::string::npos;
-        result += is_markup ? std::string("\\") + c : std::string(1, c);
-    }
-    return result;
-}
-
-/// Rows that are too long to stand beside each other: an entry a line.
-std::string listed(const report_table& table) {
-    std::string text;
-    for (const auto& row : table.rows) {
-        text += "  " + row[0] + "\n";
-        for (std::size_t c = 1; c < row.size(); ++c) {
-            text += fmt::format("    {}: {}\n", table.columns[c], row[c]);
-        }
-    }
-    return text;
-}
-
-std::string text_table(const report_table& table) {
-    constexpr std::size_t widest = 120;
-    rows lines = {table.columns};
-    lines.insert(lines.end(), table.rows.begin(), table.rows.end());
-    std::vector<std::size_t> widths(table.columns.size(), 0);
-    for (const auto& line : lines) {
-        for (std::size_t c = 0; c < line.size(); ++c) {
-            widths[c] = std::max(widths[c], line[c].size());
-        }
-    }
-    if (std::accumulate(widths.begin(), widths.end(), 2 * widths.size()) > widest) {
-        return table.title + "\n" + listed(table);
-    }
-    std::string text = table.title + "\n";
-    for (const auto& line : lines) {
-        std::string row;
-        for (std::size_t c = 0; c < line.size(); ++c) {
-            row += fmt::format("  {:<{}}", line[c], widths[c]);
-        }
-        text += row.substr(0, row.find_last_not_of(' ') + 1) + "\n";
-    }
-    return text;
-}
-
-std::string markdown_table(const report_table& table) {
-    std::string text = fmt::format("| {} |\n|{}\n", fmt::join(table.columns, " | "),
-                                   fmt::join(std::vector<std::string>(table.columns.size(), "---|"), ""));
-    for (const auto& row : table.rows) {
-        for (const std::string& cell : row) {
-            text += "| " + code(cell) + " ";
-        }
-        text += "|\n";
-    }
-    return text;
-}
-
-json to_json(const parameter_context& parameter) {
-    return {{"name", parameter.name}, {"regroups", parameter.regroups}, {"unit", parameter.unit}};
-}
-
-json to_json(const std::vector<parameter_context>& parameters) {
-    json list = json::array();
-    for (const parameter_context& parameter : parameters) {
-        list.push_back(to_json(parameter));
-    }
-    return list;
-}
-
-json to_json(const std::vector<generator::regrouping_change>& changes) {
-    json list = json::array();
-    for (const generator::regrouping_change& change : changes) {
-        json coefficients = json::array();
-        for (const generator::coefficient_change& coefficient : change.coefficients) {
-            coefficients.push_back(
-                {{"standard", coefficient.standard}, {"old", coefficient.before}, {"new", coefficient.after}});
-        }
-        list.push_back(
-            {{"old", to_json(change.before)}, {"new", to_json(change.after)}, {"coefficients", coefficients}});
-    }
-    return list;
-}
-
-json to_json(const std::vector<entry_change>& changes, const char* what) {
-    json list = json::array();
-    for (const entry_change& change : changes) {
-        json entry = {{what, change.what}};
-        if (!change.field.empty()) {
-            entry["field"] = change.field;
-        }
-        entry["old"] = change.before.empty() ? json(nullptr) : json(change.before);
-        entry["new"] = change.after.empty() ? json(nullptr) : json(change.after);
-        list.push_back(entry);
-    }
-    return list;
-}
-
-json to_json(const std::vector<generator::manifest_effect>& effects) {
-    json list = json::array();
-    for (const generator::manifest_effect& effect : effects) {
-        json entry = {{"effect", effect.effect}, {"joints", effect.joints}, {"torque", effect.torque}};
-        if (!effect.from.empty()) {
-            entry["from"] = effect.from;
-        }
-        for (const auto& [name, value] : effect.shape) {
-            entry["shape"][name] = value;
-        }
-        list.push_back(entry);
-    }
-    return list;
-}
-
-json to_json(const operation_count& count) {
-    return {{"mul", count.mul}, {"add", count.add}, {"div", count.div}, {"functions", count.functions}};
-}
-
-json operations_json(const std::vector<generator::operations_change>& changes) {
-    json functions = json::object();
-    for (const generator::operations_change& change : changes) {
-        const operation_count& old = change.before;
-        const operation_count& now = change.after;
-        functions[change.function] = {
-            {"old", to_json(old)},
-            {"new", to_json(now)},
-            {"difference", to_json(operation_count{now.mul - old.mul, now.add - old.add, now.div - old.div,
-                                                   now.functions - old.functions})}};
-    }
-    return functions;
-}
-
-json columns_json(const model_comparison& comparison) {
-    const auto names = [](const generator::model_summary& model) {
-        json list = json::array();
-        for (const auto& base : model.base) {
-            list.push_back(base.parameter.name);
-        }
-        return list;
-    };
-    json moved = json::array();
-    for (const generator::column_move& move : comparison.difference.columns) {
-        moved.push_back({{"first", move.first},
-                         {"last", move.last},
-                         {"columns", move.columns},
-                         {"old", move.before},
-                         {"new", move.after}});
-    }
-    return {{"old", names(comparison.before.summary)}, {"new", names(comparison.after.summary)}, {"moved", moved}};
-}
-
-json to_json(const torque_difference& largest, const model_comparison& comparison) {
-    const auto vector = [](const Eigen::VectorXd& values) {
-        return json(std::vector<double>(values.data(), values.data() + values.size()));
-    };
-    return {{"difference", largest.value}, {"joint", joint_name(comparison, largest.joint)},
-            {"q", vector(largest.q)},      {"qd", vector(largest.qd)},
-            {"qdd", vector(largest.qdd)},  {"old", largest.before},
-            {"new", largest.after}};
-}
-
-json to_json(const std::vector<one_sided_parameter>& parameters, const model_comparison& comparison) {
-    json list = json::array();
-    for (const one_sided_parameter& parameter : parameters) {
-        json joints = json::array();
-        for (const int joint : parameter.joints) {
-            joints.push_back(joint_name(comparison, joint));
-        }
-        list.push_back({{"name", parameter.name}, {"moves", joints}});
-    }
-    return list;
-}
-
-json torque_json(const model_comparison& comparison) {
-    if (!comparison.torques) {
-        return {{"verdict", "not_comparable"}, {"reason", *comparison.difference.not_comparable}};
-    }
-    const torque_comparison& torques = *comparison.torques;
-    static constexpr const char* verdicts[] = {"same", "same_up_to_rounding", "different"};
-    return {{"verdict", verdicts[static_cast<int>(torques.verdict)]},
-            {"states", torques.states},
-            {"seed", torques.seed},
-            {"absolute", to_json(torques.absolute, comparison)},
-            {"relative", to_json(torques.relative, comparison)},
-            {"only_old", to_json(torques.only_before, comparison)},
-            {"only_new", to_json(torques.only_after, comparison)}};
-}
-
-json origin_json(const compared_model& model) {
-    const generator::manifest& content = model.summary.content;
-    return {{"path", model.path},
-            {"robot", content.robot},
-            {"generator", content.generator},
-            {"input_hash", content.input_hash},
-            {"base_parameters", model.summary.base.size()},
-            {"standard_parameters", model.summary.standard.size()}};
-}
-
 }  // namespace
-
-bool model_comparison::same() const {
-    return difference.empty() && torques->verdict != torque_verdict::different;
-}
 
 diff_report report(const model_comparison& comparison) {
     const generator::model_difference& difference = comparison.difference;
@@ -530,7 +311,7 @@ std::string to_text(const diff_report& report) {
         text += fmt::format("  {}: {}\n", subject, finding);
     }
     for (const report_table& table : report.tables) {
-        text += "\n" + text_table(table);
+        text += "\n" + to_text(table);
     }
     return text;
 }
@@ -543,33 +324,10 @@ std::string to_markdown(const diff_report& report) {
     for (const report_table& table : report.tables) {
         const std::string title = fmt::format("{} ({})", table.title, table.rows.size());
         text += table.is_detail
-                    ? fmt::format("\n<details><summary>{}</summary>\n\n{}\n</details>\n", title, markdown_table(table))
-                    : fmt::format("\n**{}**\n\n{}", title, markdown_table(table));
+                    ? fmt::format("\n<details><summary>{}</summary>\n\n{}\n</details>\n", title, to_markdown(table))
+                    : fmt::format("\n**{}**\n\n{}", title, to_markdown(table));
     }
     return text;
-}
-
-json to_json(const model_comparison& comparison) {
-    const generator::model_difference& difference = comparison.difference;
-    return {{"old", origin_json(comparison.before)},
-            {"new", origin_json(comparison.after)},
-            {"same", comparison.same()},
-            {"torque", torque_json(comparison)},
-            {"base_parameters",
-             {{"added", to_json(difference.base_added)},
-              {"dropped", to_json(difference.base_dropped)},
-              {"regrouped", to_json(difference.regrouped)}}},
-            {"standard_parameters", {{"added", difference.standard_added}, {"dropped", difference.standard_dropped}}},
-            {"effects",
-             {{"added", to_json(difference.effects_added)},
-              {"removed", to_json(difference.effects_removed)},
-              {"changed", to_json(difference.effects_changed, "effect")}}},
-            {"constants", to_json(difference.constants, "constant")},
-            {"gravity", to_json(difference.gravity, "gravity")},
-            {"joints", to_json(difference.joints, "joint")},
-            {"loops", to_json(difference.loops, "loop")},
-            {"regressor_columns", columns_json(comparison)},
-            {"operations", operations_json(difference.operations)}};
 }
 
 }  // namespace idim::cli
