@@ -9,7 +9,7 @@
 #include "description/identifier.hpp"
 #include "description/joint_reader.hpp"
 #include "description/loop_reader.hpp"
-#include "description/urdf_robot.hpp"
+#include "description/urdf/urdf_robot.hpp"
 #include "description/yaml_reader.hpp"
 
 namespace idim::generator {

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "description/inertial_parameters.hpp"
-#include "description/xml_element.hpp"
+#include "description/urdf/xml_element.hpp"
 
 namespace idim::generator {
 

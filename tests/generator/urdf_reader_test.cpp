@@ -1,5 +1,5 @@
 // What a URDF may hold, and what is said of one that cannot be read: one line with its line.
-#include "description/urdf_reader.hpp"
+#include "description/urdf/urdf_reader.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "description/xml_element.hpp"
+#include "description/urdf/xml_element.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "description/robot_description.hpp"
-#include "description/urdf_reader.hpp"
+#include "description/urdf/urdf_reader.hpp"
 #include "oracles/text_value.hpp"
 #include "support/random_tree.hpp"
 #include "support/temporary_folder.hpp"

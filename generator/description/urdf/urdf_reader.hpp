@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "description/urdf_tree.hpp"
+#include "description/urdf/urdf_tree.hpp"
 
 namespace idim::generator {
 

@@ -1,4 +1,4 @@
-#include "description/common_normal.hpp"
+#include "description/urdf/common_normal.hpp"
 
 #include <Eigen/Geometry>
 

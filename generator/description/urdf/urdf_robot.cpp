@@ -1,11 +1,11 @@
-#include "description/urdf_robot.hpp"
+#include "description/urdf/urdf_robot.hpp"
 
 #include <algorithm>
 #include <array>
 
-#include "description/frame_placement.hpp"
 #include "description/identifier.hpp"
-#include "description/urdf_reader.hpp"
+#include "description/urdf/frame_placement.hpp"
+#include "description/urdf/urdf_reader.hpp"
 #include "description/yaml_reader.hpp"
 
 namespace idim::generator {

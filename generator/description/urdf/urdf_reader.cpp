@@ -1,4 +1,4 @@
-#include "description/urdf_reader.hpp"
+#include "description/urdf/urdf_reader.hpp"
 
 #include <console_bridge/console.h>
 #include <urdf_parser/urdf_parser.h>
@@ -8,10 +8,10 @@
 #include <map>
 #include <sstream>
 
-#include "description/angle_reader.hpp"
 #include "description/decimal.hpp"
 #include "description/text_file.hpp"
-#include "description/xml_element.hpp"
+#include "description/urdf/angle_reader.hpp"
+#include "description/urdf/xml_element.hpp"
 #include "description/yaml_reader.hpp"
 
 namespace idim::generator {

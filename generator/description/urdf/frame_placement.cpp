@@ -1,4 +1,4 @@
-#include "description/frame_placement.hpp"
+#include "description/urdf/frame_placement.hpp"
 
 #include <Eigen/Geometry>
 #include <optional>

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "description/mdh_row.hpp"
-#include "description/moving_axis.hpp"
+#include "description/urdf/mdh_row.hpp"
+#include "description/urdf/moving_axis.hpp"
 
 namespace idim::generator {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "description/rigid_pose.hpp"
-#include "description/urdf_tree.hpp"
+#include "description/urdf/urdf_tree.hpp"
 
 namespace idim::generator {
 

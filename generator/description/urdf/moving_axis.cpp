@@ -1,4 +1,4 @@
-#include "description/moving_axis.hpp"
+#include "description/urdf/moving_axis.hpp"
 
 namespace idim::generator {
 

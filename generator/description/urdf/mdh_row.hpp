@@ -1,6 +1,6 @@
 #pragma once
 
-#include "description/common_normal.hpp"
+#include "description/urdf/common_normal.hpp"
 
 namespace idim::generator {
 

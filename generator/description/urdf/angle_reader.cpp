@@ -1,4 +1,4 @@
-#include "description/angle_reader.hpp"
+#include "description/urdf/angle_reader.hpp"
 
 #include <algorithm>
 #include <cmath>

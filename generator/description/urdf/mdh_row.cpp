@@ -1,4 +1,4 @@
-#include "description/mdh_row.hpp"
+#include "description/urdf/mdh_row.hpp"
 
 #include <Eigen/Geometry>
 
