@@ -124,18 +124,7 @@ json truth_of(const simulate_options& options, const loaded_robot& robot, const 
             {"friction", options.friction}};
 }
 
-void require_rigid_transmissions(const std::string& robot_file, const idim_model_interface& model) {
-    for (int j = 0; j < model.dof; ++j) {
-        if (model.joint_stiffness != nullptr && model.joint_stiffness[j] != 0.0) {
-            throw input_error({robot_file, 0, "effects"},
-                              fmt::format("joint_elasticity of joint {} is not simulated, expected rigid transmissions",
-                                          model.joint_names[j]));
-        }
-    }
-}
-
 int simulate_loop(const simulate_options& options, const loaded_robot& robot, const Eigen::VectorXd& chi) {
-    require_rigid_transmissions(options.robot, robot.model());
     const idim::log reference = read_reference(options.reference, robot);
     const std::unique_ptr<control_law> law = declared_law(options.robot, robot, chi);
     simulated_loop_setup setup{robot.model(), chi, *law, reference};

@@ -72,6 +72,8 @@ idim::log follow(const idim_model_interface& model, const Eigen::VectorXd& chi, 
                  const idim::log& reference) {
     simulated_loop_setup setup{model, chi, law, reference};
     setup.start_velocity = reference_velocity(reference, 1.0 / law.rate);
+    // Estimates on their way part rotor and link so badly that one of them may have no inertia left.
+    setup.integration.rigid_transmissions = true;
     const simulated_motion simulated = simulate(setup);
     if (simulated.failure) {
         throw data_error(simulated.failure->message);

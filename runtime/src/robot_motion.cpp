@@ -17,11 +17,18 @@ namespace {
 // stages of a step overshoot zero; far below any speed that another term would notice.
 constexpr double slowest = 1e-12;
 
+constexpr double swing_per_step = 0.1;  // rad of the fastest swing in a step of rk4: 1e-7 of its amplitude in each
+constexpr double fastest_swing = 1e6;   // rad/s: no transmission swings like that
+
 constexpr const char* indefinite =
     "simulation at t = {:.4f} s: the inertia matrix is not positive definite at joint {}; the parameters are not "
     "physical";
 constexpr const char* open_loops =
     "simulation at t = {:.4f} s, joint {}: the loops do not close at these positions; keep the reference where they do";
+constexpr const char* no_inertia =
+    "simulation at t = {:.4f} s, joint {}: joint_elasticity without inertia of the motor or of the link; expected a "
+    "rotor "
+    "inertia above zero";
 constexpr const char* diverging =
     "simulation diverges at t = {:.4f} s, joint {}: lower the bandwidth or raise the rate of the control law";
 
@@ -32,17 +39,19 @@ robot_motion::robot_motion(const idim_model_interface& model, const Eigen::Vecto
     : model_(model),
       chi_(chi),
       options_(options),
+      soft_(model, chi),
       n_(model.dof),
+      size_(n_ + (options.rigid_transmissions ? 0 : soft_.count())),
       signals_(Eigen::VectorXd::Zero(std::max(model.dof, model.n_signals))),
       tau_(Eigen::VectorXd::Zero(n_)),
-      speed_(qd),
       N_(n_),
       holding_(n_),
-      x_(2 * static_cast<std::size_t>(n_)),
+      speed_(qd),
+      link_speed_(qd),
+      x_(2 * static_cast<std::size_t>(size_)),
       side_(static_cast<std::size_t>(n_), side::open),
       controlled_(controller::error_checker_type(options.tolerance, options.tolerance)) {
-    std::copy(q.data(), q.data() + n_, x_.begin());
-    std::copy(qd.data(), qd.data() + n_, x_.begin() + n_);
+    place(q, qd);
     signals_.head(n_).setConstant(20.0);  // degC
     update_states(0.0, 0.0);
     for (int j = 0; j < n_; ++j) {
@@ -53,8 +62,39 @@ robot_motion::robot_motion(const idim_model_interface& model, const Eigen::Vecto
     }
 }
 
-/// States of effects after `dt`, or as a motion starts where it is 0; the simulated transmissions are rigid, so that
-/// the motors move with the links.
+/// Starts with the motors at q and qd, the links where they rest behind them.
+void robot_motion::place(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) {
+    for (int j = 0; j < n_; ++j) {
+        motor_.push_back(j);
+    }
+    Eigen::VectorXd link = q;
+    if (is_soft()) {
+        for (Eigen::Index k = 0; k < soft_.count(); ++k) {
+            const int joint = soft_.joints()[static_cast<std::size_t>(k)];
+            motor_[static_cast<std::size_t>(joint)] = static_cast<int>(n_ + k);
+            x_[static_cast<std::size_t>(n_ + k)] = q[joint];
+            x_[static_cast<std::size_t>(size_ + n_ + k)] = qd[joint];
+        }
+        link = soft_.links_at_rest(q, 0.0);
+        const double swing = soft_.fastest_swing(link);
+        if (!(swing < fastest_swing)) {
+            fail(0.0, soft_.joints().front(), no_inertia);
+        }
+        longest_step_ = std::min(longest_step_, swing_per_step / swing);
+    }
+    std::copy(link.data(), link.data() + n_, x_.begin());
+    std::copy(qd.data(), qd.data() + n_, x_.begin() + size_);
+}
+
+Eigen::VectorXd robot_motion::of_motors(const double* coordinates) const {
+    Eigen::VectorXd result(n_);
+    for (Eigen::Index j = 0; j < n_; ++j) {
+        result[j] = coordinates[motor_[static_cast<std::size_t>(j)]];
+    }
+    return result;
+}
+
+/// States of effects after `dt`, or as a motion starts where it is 0.
 void robot_motion::update_states(double t, double dt) {
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(n_);
     if (signals_.size() >= n_ + model_.n_states + 2 * n_) {
@@ -66,9 +106,9 @@ void robot_motion::update_states(double t, double dt) {
     }
     Eigen::VectorXd states(model_.n_states);
     if (dt > 0.0) {
-        model_.next_states(x_.data(), x_.data() + n_, none.data(), t, signals_.data(), dt, states.data());
+        model_.next_states(x_.data(), x_.data() + size_, none.data(), t, signals_.data(), dt, states.data());
     } else {
-        model_.first_states(x_.data(), x_.data() + n_, none.data(), t, signals_.data(), states.data());
+        model_.first_states(x_.data(), x_.data() + size_, none.data(), t, signals_.data(), states.data());
     }
     signals_.segment(n_, model_.n_states) = states;
 }
@@ -88,7 +128,8 @@ bool robot_motion::has_jump(int joint) {
     return std::abs(high - low) > 1e-9 * std::max(1e-3, std::abs(high) + std::abs(low));
 }
 
-void robot_motion::freeze(const double* qd) {
+void robot_motion::freeze(const double* speeds) {
+    const Eigen::VectorXd qd = of_motors(speeds);
     for (Eigen::Index j = 0; j < n_; ++j) {
         const side where = side_[static_cast<std::size_t>(j)];
         switch (where) {
@@ -109,8 +150,8 @@ bool robot_motion::any_rest() const {
 }
 
 /// Friction linear in the speed between -band and band: what the model's own N has too much there goes to the torque.
-void robot_motion::regularised_acceleration(const double* q, const double* qd, double t, double* qdd) {
-    const Eigen::Map<const Eigen::VectorXd> real(qd, n_);
+void robot_motion::regularised_acceleration(const double* q, double t, double* qdd) {
+    const Eigen::VectorXd real = of_motors(q + size_);
     const auto bias = [&](Eigen::VectorXd& N) {
         model_.bias(q, speed_.data(), t, signals_.data(), chi_.data(), N.data());
     };
@@ -119,17 +160,29 @@ void robot_motion::regularised_acceleration(const double* q, const double* qd, d
     bias(at_zero);
     Eigen::VectorXd tau = tau_;
     for (Eigen::Index j = 0; j < n_; ++j) {
-        if (std::abs(qd[j]) < options_.band && qd[j] != 0.0) {
-            speed_[j] = std::copysign(options_.band, qd[j]);
+        if (std::abs(real[j]) < options_.band && real[j] != 0.0) {
+            speed_[j] = std::copysign(options_.band, real[j]);
             bias(N_);
             speed_[j] = 0.0;
-            tau -= (N_ - at_zero) * (std::abs(qd[j]) / options_.band);
+            tau -= (N_ - at_zero) * (std::abs(real[j]) / options_.band);
         }
     }
     free_acceleration(q, t, tau, qdd);
 }
 
+/// Accelerations of all coordinates at the frozen speeds; `q` is a state, speeds behind positions.
 void robot_motion::free_acceleration(const double* q, double t, const Eigen::VectorXd& tau, double* qdd) {
+    if (is_soft()) {
+        link_speed_ = speed_;
+        for (const int j : soft_.joints()) {
+            link_speed_[j] = q[size_ + j];
+        }
+        if (!soft_.accelerations({q, link_speed_, of_motors(q), speed_, tau, t, signals_}, qdd)) {
+            fail(t, soft_.joints().front(), no_inertia);
+            std::fill(qdd, qdd + size_, 0.0);
+        }
+        return;
+    }
     const int joint = model_.forward_dynamics(q, speed_.data(), tau.data(), t, signals_.data(), chi_.data(), qdd);
     if (joint != 0) {
         fail(t, std::clamp<int>(joint, 1, model_.dof) - 1, loops_close(model_, q) ? indefinite : open_loops);
@@ -141,19 +194,20 @@ void robot_motion::free_acceleration(const double* q, double t, const Eigen::Vec
 /// holding = 0 elsewhere. Newton's method on the direct model, which is affine in the torque but for effects of the
 /// load.
 void robot_motion::held_acceleration(const double* q, double t, double* qdd) {
-    std::vector<Eigen::Index> rest;
+    std::vector<Eigen::Index> joints, rest;  // that rest, and their coordinates
     for (Eigen::Index j = 0; j < n_; ++j) {
         if (side_[static_cast<std::size_t>(j)] == side::rest) {
-            rest.push_back(j);
+            joints.push_back(j);
+            rest.push_back(motor_[static_cast<std::size_t>(j)]);
         }
     }
-    Eigen::Map<Eigen::VectorXd> result(qdd, n_);
-    Eigen::VectorXd moved(n_);
+    Eigen::Map<Eigen::VectorXd> result(qdd, size_);
+    Eigen::VectorXd moved(size_);
     Eigen::MatrixXd slope(rest.size(), rest.size());
     free_acceleration(q, t, tau_, qdd);
     for (std::size_t k = 0; k < rest.size(); ++k) {
         Eigen::VectorXd more = tau_;
-        more[rest[k]] += 1.0;
+        more[joints[k]] += 1.0;
         free_acceleration(q, t, more, moved.data());
         slope.col(static_cast<Eigen::Index>(k)) = (moved - result)(rest);
     }
@@ -166,7 +220,7 @@ void robot_motion::held_acceleration(const double* q, double t, double* qdd) {
     for (int i = 0; i < most && result(rest).norm() > 1e-12 * (1.0 + result.norm()); ++i) {
         const Eigen::VectorXd correction = factors.solve(Eigen::VectorXd(result(rest)));
         for (std::size_t k = 0; k < rest.size(); ++k) {
-            holding_[rest[k]] += correction[static_cast<Eigen::Index>(k)];
+            holding_[joints[k]] += correction[static_cast<Eigen::Index>(k)];
         }
         free_acceleration(q, t, tau_ - holding_, qdd);
     }
@@ -175,11 +229,11 @@ void robot_motion::held_acceleration(const double* q, double t, double* qdd) {
 
 void robot_motion::derivative(const state& x, state& dxdt, double t) {
     const double* const q = x.data();
-    const double* const qd = x.data() + n_;
-    double* const qdd = dxdt.data() + n_;
-    std::copy(qd, qd + n_, dxdt.begin());
+    const double* const qd = x.data() + size_;
+    double* const qdd = dxdt.data() + size_;
+    std::copy(qd, qd + size_, dxdt.begin());
     if (options_.friction == friction_handling::regularised) {
-        regularised_acceleration(q, qd, t, qdd);
+        regularised_acceleration(q, t, qdd);
         return;
     }
     freeze(qd);
@@ -257,8 +311,7 @@ double robot_motion::step(double t, double& h, double shortest) {
 double robot_motion::lowest_advance(const state& x, const std::vector<int>& joints) const {
     double lowest = INFINITY;
     for (const int j : joints) {
-        const auto at = static_cast<std::size_t>(j);
-        lowest = std::min(lowest, static_cast<double>(side_[at]) * x[static_cast<std::size_t>(n_) + at]);
+        lowest = std::min(lowest, static_cast<double>(side_[static_cast<std::size_t>(j)]) * speed(x, j));
     }
     return lowest;
 }
@@ -269,7 +322,7 @@ double robot_motion::locate(double t, double h) {
     for (int j = 0; j < n_; ++j) {
         const auto at = static_cast<std::size_t>(j);
         const bool moves = side_[at] == side::forward || side_[at] == side::backward;
-        if (moves && static_cast<double>(side_[at]) * x_[static_cast<std::size_t>(n_) + at] < 0.0) {
+        if (moves && static_cast<double>(side_[at]) * speed(x_, j) < 0.0) {
             crossing.push_back(j);
         }
     }
@@ -301,9 +354,8 @@ double robot_motion::locate(double t, double h) {
     }
     for (const int j : crossing) {
         const auto at = static_cast<std::size_t>(j);
-        double& speed = x_[static_cast<std::size_t>(n_) + at];
-        if (static_cast<double>(side_[at]) * speed <= 0.0) {
-            speed = 0.0;
+        if (static_cast<double>(side_[at]) * speed(x_, j) <= 0.0) {
+            x_[static_cast<std::size_t>(size_ + motor_[at])] = 0.0;
             const double jump = bias_of(j, slowest, t) - bias_of(j, -slowest, t);
             // Friction that drives (estimates on their way may have it) holds nothing: the joint passes.
             side_[at] = jump > 0.0 ? side::rest : (side_[at] == side::forward ? side::backward : side::forward);
@@ -321,9 +373,9 @@ void robot_motion::fail(double t, int joint, const char* format) {
 
 void robot_motion::check(double t) {
     constexpr double fastest = 1e4;  // rad/s or m/s: no robot moves like that
-    for (int j = 0; j < n_; ++j) {
-        if (!(std::abs(x_[static_cast<std::size_t>(n_ + j)]) < fastest)) {
-            fail(t, j, diverging);
+    for (Eigen::Index c = 0; c < size_; ++c) {
+        if (!(std::abs(x_[static_cast<std::size_t>(size_ + c)]) < fastest)) {
+            fail(t, c < n_ ? static_cast<int>(c) : soft_.joints()[static_cast<std::size_t>(c - n_)], diverging);
         }
     }
 }
@@ -333,15 +385,14 @@ Eigen::VectorXd robot_motion::acceleration(double t, const Eigen::VectorXd& tau)
     settle(t);
     state rate(x_.size());
     derivative(x_, rate, t);
-    return Eigen::Map<const Eigen::VectorXd>(rate.data() + n_, n_);
+    return of_motors(rate.data() + size_);
 }
 
 void robot_motion::advance(double t, double period, const Eigen::VectorXd& tau) {
     tau_ = tau;
     settle(t);
     controlled_.reset();
-    constexpr double longest = 1e-3;  // s
-    const double steps = options_.substeps > 0 ? options_.substeps : std::ceil(period / longest - 1e-9);
+    const double steps = options_.substeps > 0 ? options_.substeps : std::ceil(period / longest_step_ - 1e-9);
     const double end = t + period;
     const double rounding = 1e-9 * period;
     double next = options_.method == integrator::rk4 ? period / steps : period;

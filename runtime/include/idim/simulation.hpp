@@ -33,10 +33,13 @@ enum class friction_handling { located, regularised, sign };
 /// How the continuous robot is integrated between two samples of the controller (Boost.Odeint).
 struct integration_options {
     integrator method = integrator::rk4;
-    int substeps = 0;         ///< of rk4 in a sampling period; 0: as many as it takes to make them 1 ms or shorter
+    /// of rk4 in a sampling period; 0: as many as it takes to make them 1 ms or shorter, and a tenth of a radian of
+    /// what swings behind soft transmissions
+    int substeps = 0;
     double tolerance = 1e-9;  ///< of dopri5, absolute and relative, for every position and speed
     friction_handling friction = friction_handling::located;
-    double band = 1e-3;  ///< [rad/s or m/s] of regularised friction
+    double band = 1e-3;                ///< [rad/s or m/s] of regularised friction
+    bool rigid_transmissions = false;  ///< joint_stiffness is not simulated: links move with their motors
 };
 
 /// Why a simulation ended early.
@@ -69,8 +72,9 @@ struct simulated_loop_setup {
 /// Closed loop of the direct dynamic model and a sampled control law: the drive holds its torque for one period while
 /// the robot moves on. The logged torque is the mean of the torques held before and after the sample, as a filtered
 /// current measurement gives: the command alone would lead the motion by half a period; a joint's torque_delay is
-/// added. Transmissions are taken as rigid (joint_stiffness is not simulated). An inertia matrix that is not positive
-/// definite, or a motion that diverges, ends the simulation with a failure that names time and joint.
+/// added. Behind a soft transmission the link swings against its motor; measured, controlled and rubbed is the motor,
+/// and the log's motion is the motors', as the truth's is. An inertia matrix that is not positive definite, or a motion
+/// that diverges, ends the simulation with a failure that names time and joint.
 simulated_motion simulate(const simulated_loop_setup& setup);
 
 /// The same from rest at the reference; throws data_error with the failure's message. `substeps` as in
