@@ -39,10 +39,12 @@ class PeriodicCommand : public ::testing::Test {
             const double w = 0.5 * std::numbers::pi;
             const double s = std::max(k - 200, 0) / 200.0;
             const double t = s + stretch * s * s;
-            const double on = k > 200 ? 1.0 : 0.0;
+            const double pace = 1.0 + 2.0 * stretch * s;  // dt/ds
             const double q = 0.4 * (1.0 - std::cos(w * t)) + 0.1 * (1.0 - std::cos(3.0 * w * t));
-            const double qd = 0.4 * w * std::sin(w * t) + 0.3 * w * std::sin(3.0 * w * t);
-            const double qdd = on * w * w * (0.4 * std::cos(w * t) + 0.9 * std::cos(3.0 * w * t));
+            const double by_t = 0.4 * w * std::sin(w * t) + 0.3 * w * std::sin(3.0 * w * t);
+            const double twice = w * w * (0.4 * std::cos(w * t) + 0.9 * std::cos(3.0 * w * t));
+            const double qd = by_t * pace;
+            const double qdd = k > 200 ? twice * pace * pace + by_t * 2.0 * stretch : 0.0;
             text += fmt::format("{:.3f},{},{}\n", k / 200.0, q, 5.0 * qdd + 2.0 * qd + noise(random));
         }
         return text;

@@ -2,6 +2,7 @@
 // often deviations cover.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -76,50 +77,53 @@ periodic_part all_of(Eigen::Index periods) {
     return {period, periods, 0, 0, 0.0};
 }
 
-/// Shares of parameters that intervals hold, and squared errors in units of the deviations at stake.
-struct monte_carlo {
-    double covered = 0.0;
-    double covered_by_scatter = 0.0;
-    Eigen::VectorXd square = Eigen::VectorXd::Zero(8);
-    Eigen::VectorXd square_unweighted = Eigen::VectorXd::Zero(8);
+/// What one draw of the noise leads to.
+struct draw {
+    observation rows;
+    std::vector<torque_scatter> scatter;
+    estimate found;
+
+    draw(Eigen::Index periods, std::uint64_t seed, double phi) {
+        const filtered_samples samples = noisy_samples(periods, seed, phi);
+        rows = averaged_rows(samples, all_of(periods));
+        scatter = {scatter_of(samples, all_of(periods), every_sample)};
+        found = fit_whitened(rows, whiten(rows, scatter));
+    }
 };
 
-monte_carlo runs_of(int runs, Eigen::Index periods, double phi, double quantile) {
-    monte_carlo sums;
-    for (int run = 0; run < runs; ++run) {
-        const filtered_samples samples = noisy_samples(periods, static_cast<std::uint64_t>(run) + 1, phi);
-        const observation rows = averaged_rows(samples, all_of(periods));
-        const std::vector<torque_scatter> scatter = {scatter_of(samples, all_of(periods), every_sample)};
-        const estimate found = fit_whitened(rows, whiten(rows, scatter));
-        const Eigen::ArrayXd error = (found.chi - scara_truth()).cwiseAbs();
-        const Eigen::ArrayXd by_scatter = scatter_deviations(rows, scatter);
-        sums.covered += static_cast<double>((error < 1.96 * found.deviations().array()).count()) / (8.0 * runs);
-        sums.covered_by_scatter += static_cast<double>((error < quantile * by_scatter).count()) / (8.0 * runs);
-        sums.square += error.square().matrix() / runs;
-        const estimate per_joint = least_squares(rows, least_squares_method::wls);
-        sums.square_unweighted += (per_joint.chi - scara_truth()).cwiseAbs2() / runs;
-    }
-    return sums;
-}
-
 TEST(PeriodicAverage, DeviationsCoverTheTruthUnderColouredNoiseCorrelatedBetweenJoints) {
-    // Student's quantile of 11 degrees of freedom for 95 %.
-    const monte_carlo sums = runs_of(150, 12, 0.6, 2.201);
-    RecordProperty("covered", std::to_string(sums.covered));
-    RecordProperty("covered_by_scatter", std::to_string(sums.covered_by_scatter));
-    // 1200 intervals, of which about four of a run are independent: deviation 0.9 %, here three of them and what a
-    // model of first order along a period of uneven noise misses.
-    EXPECT_NEAR(sums.covered, 0.95, 0.035);
-    EXPECT_NEAR(sums.covered_by_scatter, 0.95, 0.03);
+    constexpr int runs = 100;
+    constexpr double student = 2.201;  // 11 degrees of freedom, 95 %
+    double covered = 0.0;
+    double covered_by_scatter = 0.0;
+    for (int run = 1; run <= runs; ++run) {
+        const draw one(12, static_cast<std::uint64_t>(run), 0.6);
+        const Eigen::ArrayXd error = (one.found.chi - scara_truth()).cwiseAbs();
+        const Eigen::ArrayXd by_scatter = scatter_deviations(one.rows, one.scatter);
+        covered += static_cast<double>((error < 1.96 * one.found.deviations().array()).count()) / (8.0 * runs);
+        covered_by_scatter += static_cast<double>((error < student * by_scatter).count()) / (8.0 * runs);
+    }
+    RecordProperty("covered", std::to_string(covered));
+    RecordProperty("covered_by_scatter", std::to_string(covered_by_scatter));
+    // 800 intervals, of which about four of a run are independent: deviation 1.1 %, here three of them. 200 runs cover
+    // at 96.9 and 95.2 %.
+    EXPECT_NEAR(covered, 0.95, 0.033);
+    EXPECT_NEAR(covered_by_scatter, 0.95, 0.033);
 }
 
 TEST(PeriodicAverage, WeightsOfEverySampleAreMorePreciseThanThoseOfJointsWhereTheNoiseVaries) {
-    const monte_carlo sums = runs_of(100, 24, 0.0, 2.069);
-    // The weighted error is a fraction of the other, for every parameter; measured 0.3 to 0.75.
-    const Eigen::ArrayXd ratio = (sums.square.array() / sums.square_unweighted.array()).sqrt();
+    constexpr int runs = 60;
+    Eigen::ArrayXd weighted = Eigen::ArrayXd::Zero(8);
+    Eigen::ArrayXd per_joint = Eigen::ArrayXd::Zero(8);
+    for (int run = 1; run <= runs; ++run) {
+        const draw one(24, static_cast<std::uint64_t>(run), 0.0);
+        weighted += (one.found.chi - scara_truth()).array().square();
+        per_joint += (least_squares(one.rows, least_squares_method::wls).chi - scara_truth()).array().square();
+    }
+    // 100 runs gave 0.35 to 0.53; a ratio of 60 runs is known to a tenth or better.
+    const Eigen::ArrayXd ratio = (weighted / per_joint).sqrt();
     for (int k = 0; k < 8; ++k) {
-        RecordProperty("ratio" + std::to_string(k), std::to_string(ratio[k]));
-        EXPECT_LT(ratio[k], 0.9) << k;
+        EXPECT_LT(ratio[k], 0.75) << k;
     }
 }
 
@@ -147,7 +151,7 @@ TEST(PeriodicAverage, FewerPeriodsThanJointsStillGiveACovarianceThatCanBeInverte
     // n = 2, P = 2: at least 4/5 of the mean.
     EXPECT_GE(few.pooled_share, 0.8);
     for (const Eigen::MatrixXd& S : few.covariance) {
-        EXPECT_GT(S.determinant(), 0.0);
+        EXPECT_LT(S(0, 1) * S(0, 1), 0.99 * S(0, 0) * S(1, 1));
     }
 }
 

@@ -75,9 +75,10 @@ void restore_units(const observation& rows, estimate& fit);
 
 /// Deviations that the scatter of the periods alone gives the parameters [b]: every period's own estimate is one draw,
 /// and the variance of their mean is sum_p |chi_p - mean|^2 / (P (P - 1)), whatever the correlation within a period and
-/// between joints. With few periods they are rough: 1 / sqrt(2 (P - 1)) of themselves. They know nothing of what the
-/// model leaves unexplained in every period alike, which those of fit_whitened do. `rows` are not whitened, of full
-/// rank.
+/// between joints. Each draw is weighted by the scatter of the other periods: weights that come from a draw itself make
+/// it look smaller than it is. With few periods they are rough: 1 / sqrt(2 (P - 1)) of themselves. They know nothing of
+/// what the model leaves unexplained in every period alike, which those of fit_whitened do. `rows` are not whitened, of
+/// full rank.
 Eigen::VectorXd scatter_deviations(const observation& rows, const std::vector<torque_scatter>& scatter);
 
 }  // namespace idim

@@ -14,4 +14,7 @@ Eigen::Index period_margin(const filter_choice& choice);
 /// Decimated rows of one period; where the period is no whole number of them, the last is shorter.
 Eigen::Index rows_in_period(const periodic_part& part, const filter_choice& choice);
 
+/// The scatter of all periods but p; at least two must be left.
+torque_scatter without_period(torque_scatter scatter, std::size_t p);
+
 }  // namespace idim

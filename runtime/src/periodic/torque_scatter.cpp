@@ -85,22 +85,17 @@ double pooled_share_of(const std::vector<Eigen::MatrixXd>& S, const Eigen::Matri
     return std::clamp(spread > 0.0 ? noise / spread : 1.0, least, 1.0);
 }
 
-}  // namespace
-
-torque_scatter scatter_of(const filtered_samples& samples, const periodic_part& part, const filter_choice& choice) {
-    torque_scatter scatter;
-    scatter.deviations = deviations_of(samples.tau, part, choice);
+/// Covariances from the deviations.
+void fill_covariance(torque_scatter& scatter) {
     scatter.covariance = covariances_of(scatter.deviations);
-    const Eigen::Index n = samples.tau.cols();
+    const Eigen::Index n = scatter.deviations.front().cols();
     Eigen::MatrixXd pooled = Eigen::MatrixXd::Zero(n, n);
     for (const Eigen::MatrixXd& S : scatter.covariance) {
         pooled += S / static_cast<double>(scatter.covariance.size());
     }
     scatter.rms = pooled.diagonal().cwiseSqrt();
-    const Eigen::VectorXd size = mean_period(samples.tau, part).cwiseAbs().colwise().maxCoeff();
-    scatter.scatters = (scatter.rms.array() > smallest_scatter * size.array()).any();
-    if (!scatter.scatters) {
-        return scatter;
+    if (scatter.rms.maxCoeff() == 0.0) {
+        return;
     }
     // A joint without torque has no scatter; it must not make the weights of the others vanish.
     const double floor = smallest_joint * scatter.rms.maxCoeff();
@@ -109,6 +104,26 @@ torque_scatter scatter_of(const filtered_samples& samples, const periodic_part& 
     for (Eigen::MatrixXd& S : scatter.covariance) {
         S = (1.0 - scatter.pooled_share) * S + scatter.pooled_share * pooled;
     }
+}
+
+}  // namespace
+
+torque_scatter scatter_of(const filtered_samples& samples, const periodic_part& part, const filter_choice& choice) {
+    torque_scatter scatter;
+    scatter.deviations = deviations_of(samples.tau, part, choice);
+    fill_covariance(scatter);
+    const Eigen::VectorXd size = mean_period(samples.tau, part).cwiseAbs().colwise().maxCoeff();
+    scatter.scatters = (scatter.rms.array() > smallest_scatter * size.array()).any();
+    return scatter;
+}
+
+torque_scatter without_period(torque_scatter scatter, std::size_t p) {
+    const Eigen::MatrixXd out = scatter.deviations[p] / static_cast<double>(scatter.deviations.size() - 1);
+    scatter.deviations.erase(scatter.deviations.begin() + static_cast<std::ptrdiff_t>(p));
+    for (Eigen::MatrixXd& period : scatter.deviations) {
+        period += out;  // about the average of those that are left
+    }
+    fill_covariance(scatter);
     return scatter;
 }
 

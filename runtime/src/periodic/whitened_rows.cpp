@@ -2,7 +2,7 @@
 #include <cmath>
 #include <utility>
 
-#include "idim/periodic.hpp"
+#include "periodic/folded_period.hpp"
 #include "weighted_fit.hpp"
 
 namespace idim {
@@ -53,29 +53,22 @@ std::vector<double> ones(int joints) {
     return std::vector<double>(static_cast<std::size_t>(joints), 1.0);
 }
 
-/// The torques of `rows` without the regressor: in log i the deviation of its period p, in the other logs zero.
-observation deviated(const observation& rows, const std::vector<torque_scatter>& scatter, std::size_t log,
-                     std::size_t p) {
-    observation torques = rows;
-    for (std::size_t i = 0; i < rows.blocks.size(); ++i) {
-        observation_block& block = torques.blocks[i];
-        for (std::size_t j = 0; j < block.Y.size(); ++j) {
-            block.W[j].resize(block.Y[j].size(), 0);
-            block.Y[j].setZero();
-            if (i == log) {
-                block.Y[j] = scatter[i].deviations[p](block.kept[j], static_cast<Eigen::Index>(j));
-            }
-        }
+/// The rows of one log with the torques that are the deviation of a period.
+observation deviated(const observation& rows, std::size_t log, const Eigen::MatrixXd& deviation) {
+    observation torques{{rows.blocks[log]}, rows.dof, rows.n_base};
+    observation_block& block = torques.blocks.front();
+    for (std::size_t j = 0; j < block.Y.size(); ++j) {
+        block.Y[j] = deviation(block.kept[j], static_cast<Eigen::Index>(j));
     }
-    return whiten(std::move(torques), scatter);
+    return torques;
 }
 
-/// W' Y, W of one and Y of the other.
-Eigen::VectorXd normal_side(const observation& regressor, const observation& torques) {
-    Eigen::VectorXd side = Eigen::VectorXd::Zero(regressor.n_base);
-    for (std::size_t i = 0; i < regressor.blocks.size(); ++i) {
-        for (std::size_t j = 0; j < regressor.blocks[i].W.size(); ++j) {
-            side += regressor.blocks[i].W[j].transpose() * torques.blocks[i].Y[j];
+/// W' Y over all rows.
+Eigen::VectorXd normal_side(const observation& rows) {
+    Eigen::VectorXd side = Eigen::VectorXd::Zero(rows.n_base);
+    for (const observation_block& block : rows.blocks) {
+        for (std::size_t j = 0; j < block.W.size(); ++j) {
+            side += block.W[j].transpose() * block.Y[j];
         }
     }
     return side;
@@ -105,14 +98,19 @@ estimate fit_whitened(const observation& rows, const observation& whitened) {
 }
 
 Eigen::VectorXd scatter_deviations(const observation& rows, const std::vector<torque_scatter>& scatter) {
-    const observation whitened = whiten(rows, scatter);
-    const Eigen::MatrixXd root = factor(whitened, uniform_weights(rows, ones(rows.dof))).inverse();
     Eigen::VectorXd variance = Eigen::VectorXd::Zero(rows.n_base);
     for (std::size_t i = 0; i < scatter.size(); ++i) {
-        const auto periods = static_cast<double>(scatter[i].deviations.size());
-        for (std::size_t p = 0; p < scatter[i].deviations.size(); ++p) {
-            const Eigen::VectorXd side = normal_side(whitened, deviated(rows, scatter, i, p));
-            variance += (root * (root.transpose() * side)).cwiseAbs2() / (periods * (periods - 1.0));
+        const std::size_t count = scatter[i].deviations.size();
+        const auto periods = static_cast<double>(count);
+        std::vector<torque_scatter> weights = scatter;
+        for (std::size_t p = 0; p < count; ++p) {
+            if (count > 2) {
+                weights[i] = without_period(scatter[i], p);
+            }
+            const observation whitened = whiten(rows, weights);
+            const Eigen::MatrixXd root = factor(whitened, uniform_weights(rows, ones(rows.dof))).inverse();
+            const observation torques = whiten(deviated(rows, i, scatter[i].deviations[p]), {weights[i]});
+            variance += (root * (root.transpose() * normal_side(torques))).cwiseAbs2() / (periods * (periods - 1.0));
         }
     }
     return variance.cwiseSqrt();
