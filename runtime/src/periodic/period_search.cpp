@@ -109,18 +109,21 @@ double median_mismatch(const Eigen::MatrixXd& X, Eigen::Index lag) {
     return median(window_mismatch(X, lag));
 }
 
-/// The lag within two samples of `lag` that repeats best: a transient tilts the minimum of lag_distance.
+/// The lag at the foot of the slope of the median mismatch on which `lag` stands: a transient or a rest tilts the
+/// minimum of lag_distance by some samples.
 Eigen::Index refined(const Eigen::MatrixXd& X, Eigen::Index lag, Eigen::Index most) {
-    Eigen::Index best = lag;
     double least = median_mismatch(X, lag);
-    for (Eigen::Index near = std::max(lag - 2, shortest_period); near <= std::min(lag + 2, most); ++near) {
-        const double here = median_mismatch(X, near);
-        if (here < least) {
+    for (const Eigen::Index step : {-1, 1}) {
+        for (Eigen::Index near = lag + step; near >= shortest_period && near <= most; near += step) {
+            const double here = median_mismatch(X, near);
+            if (here >= least) {
+                break;
+            }
             least = here;
-            best = near;
+            lag = near;
         }
     }
-    return best;
+    return lag;
 }
 
 /// The shortest lag that repeats as well as the best one, if any repeats.
