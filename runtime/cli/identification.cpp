@@ -26,6 +26,19 @@ json parameters_json(const identification& found) {
     return list;
 }
 
+/// In the order of `parameters`.
+json covariance_json(const estimate& result) {
+    json rows = json::array();
+    for (Eigen::Index i = 0; i < result.covariance.rows(); ++i) {
+        json row = json::array();
+        for (const double value : result.covariance.row(i)) {
+            row.push_back(finite(value));
+        }
+        rows.push_back(row);
+    }
+    return rows;
+}
+
 json iterations_json(const estimate& result) {
     json list = json::array();
     for (const iteration& step : result.iterations) {
@@ -101,6 +114,7 @@ json to_json(const identification& found, const std::string& method) {
             {"correlation_length", found.result.correlation_length},
             {"not_excited", names_json(found, found.result.not_excited)},
             {"parameters", parameters_json(found)},
+            {"covariance", covariance_json(found.result)},
             {"essential", has_essential(found) ? essential_json(found) : json(nullptr)},
             {"residual", found.result.chi.size() > 0 ? to_json(found.result.residual, found.robot) : json(nullptr)}};
 }

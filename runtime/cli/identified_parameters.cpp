@@ -69,6 +69,53 @@ std::optional<filter_choice> filter_of(const YAML::Node& root) {
     return choice;
 }
 
+/// Variance of the torque of one period about the mean of the periods, which errors on averaged rows lack: of joint j,
+/// scatter^2 (1 - 1 / P), mean over the logs.
+double variance_averaged_out(const YAML::Node& periodic, std::size_t joint) {
+    if (!periodic || !periodic.IsMap() || !periodic["logs"]) {
+        return 0.0;
+    }
+    double sum = 0.0;
+    for (const YAML::Node& log : periodic["logs"]) {
+        const auto scatter = log["joints"][joint]["scatter"].as<double>();
+        sum += scatter * scatter * (1.0 - 1.0 / log["periods"].as<double>());
+    }
+    return sum / static_cast<double>(periodic["logs"].size());
+}
+
+/// Whether the result holds what spread_of reads, for this robot and without columns of single logs.
+bool has_spread(const YAML::Node& root, const loaded_robot& robot) {
+    const YAML::Node covariance = root["covariance"];
+    const YAML::Node residual = root["residual"];
+    const std::size_t parameters = robot.generated.base.parameters.size();
+    return covariance && covariance.IsSequence() && covariance.size() == parameters && residual && residual.IsMap() &&
+           residual["joints"] && residual["joints"].size() == robot.generated.joints.size();
+}
+
+std::optional<prediction_spread> spread_of(const YAML::Node& root, const loaded_robot& robot, const std::string& file) {
+    if (!has_spread(root, robot)) {
+        return std::nullopt;
+    }
+    prediction_spread spread;
+    const auto b = static_cast<Eigen::Index>(root["covariance"].size());
+    spread.covariance.resize(b, b);
+    try {
+        for (Eigen::Index i = 0; i < b; ++i) {
+            for (Eigen::Index k = 0; k < b; ++k) {
+                spread.covariance(i, k) = root["covariance"][i][k].as<double>();
+            }
+        }
+        for (std::size_t j = 0; j < root["residual"]["joints"].size(); ++j) {
+            const auto rms = root["residual"]["joints"][j]["rms"].as<double>();
+            spread.noise.push_back(std::sqrt(rms * rms + variance_averaged_out(root["periodic"], j)));
+        }
+    } catch (const YAML::Exception& error) {
+        throw input_error({file, error.mark.line + 1, ""},
+                          "expected numbers in covariance, residual and periodic, as identify writes them");
+    }
+    return spread;
+}
+
 }  // namespace
 
 std::map<std::string, double> read_standard_parameters(const std::string& file) {
@@ -91,7 +138,8 @@ identified_parameters read_parameters(const std::string& file, const loaded_robo
     const YAML::Node root = read_root(file);
     std::map<std::string, double> values = values_of(root, file);
     const auto& names = robot.generated.base.parameters;
-    identified_parameters result{Eigen::VectorXd(static_cast<Eigen::Index>(names.size())), filter_of(root)};
+    identified_parameters result{Eigen::VectorXd(static_cast<Eigen::Index>(names.size())), filter_of(root),
+                                 spread_of(root, robot, file)};
     for (std::size_t k = 0; k < names.size(); ++k) {
         const auto found = values.find(names[k].name);
         if (found == values.end()) {

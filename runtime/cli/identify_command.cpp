@@ -40,6 +40,13 @@ void flag_bounds(json& parameters, const consistent_estimate& found) {
     }
 }
 
+/// What the scatter of the periods alone says of the parameters.
+void add_scatter_deviations(json& parameters, const Eigen::VectorXd& deviations) {
+    for (Eigen::Index k = 0; k < deviations.size(); ++k) {
+        parameters[static_cast<std::size_t>(k)]["std_of_periods"] = deviations[k];
+    }
+}
+
 void print_parameters(const identification& found, const method_result& by) {
     const Eigen::VectorXd std = found.result.deviations();
     fmt::print("  {:<10} {:>13} {:>11} {:>8}  {}\n", "parameter", "value", "std", "%", "unit");
@@ -65,11 +72,15 @@ void print_essential(const identification& found) {
                dropped.empty() ? "none" : fmt::format("{}", fmt::join(dropped, " ")));
 }
 
-void print_identification(const identification& found, const method_result& by) {
+void print_identification(const identification& found, const method_result& by,
+                          const std::optional<periodic_logs>& periods) {
     const estimate& result = found.result;
     fmt::print("{}: {}, {} rows, condition number {:.3g} ({:.3g} with columns scaled)\n", found.robot.generated.robot,
                by.method, result.samples, result.condition_number, result.scaled_condition_number);
     fmt::print("  {}\n", found.filter.reason);
+    if (periods) {
+        print(*periods);
+    }
     print_iterations(by, found.robot);
     print_parameters(found, by);
     print(result.residual, found.robot);
@@ -138,7 +149,18 @@ int compare(const identify_options& options, const loaded_robot& robot, const fi
     return exit_done;
 }
 
+/// Averaged periods are rows of least squares; the closed loop is simulated along whole logs.
+void check_period_use(const identify_options& options) {
+    const bool averages = options.method == "ols" || options.method == "wls" || options.method == "cwls";
+    if (!options.simulation.period.empty() && (!averages || options.compare)) {
+        throw input_error({"", 0, "--period"},
+                          fmt::format("not with {}, expected --method ols, wls or cwls",
+                                      options.compare ? "--compare" : "--method " + options.method));
+    }
+}
+
 int run(const identify_options& options) {
+    check_period_use(options);
     const loaded_robot robot = load_robot(options.robot);
     const Eigen::VectorXd truth = options.truth.empty() ? Eigen::VectorXd() : read_parameters(options.truth, robot).chi;
     const std::vector<idim::log> logs = read_logs(robot, options.logs);
@@ -160,6 +182,10 @@ int run(const identify_options& options) {
     }
     const identification found{robot, filter, std::move(rows), by.fit, std::move(essential)};
     json content = to_json(found, options.method);
+    if (runner.periods()) {
+        content["periodic"] = to_json(*runner.periods(), robot);
+        add_scatter_deviations(content["parameters"], by.scatter_deviations);
+    }
     content["description"] = options.robot;
     if (by.consistent) {
         content["consistency"] = to_json(*by.consistent, robot);
@@ -177,7 +203,7 @@ int run(const identify_options& options) {
         throw data_error(unexcited ? explain(found, at_rest) : found.result.message);
     }
     if (prints_text(options.json_file)) {
-        print_identification(found, by);
+        print_identification(found, by, runner.periods());
         if (truth.size() > 0) {
             print_truth(found, truth);
         }
@@ -210,6 +236,10 @@ void add_identify_command(CLI::App& app, action& chosen) {
         ->check(CLI::PositiveNumber);
     command->add_flag("--correct-processing", options->simulation.options.corrects_processing,
                       "take off what sampling and filters do to the torque of the simulation; not for cloe");
+    command->add_option(
+        "--period", options->simulation.period,
+        "average the periods of the logs, each this many seconds, or auto (found; where nothing repeats, "
+        "the whole logs are rows); wls and cwls then weight every sample by its torque covariance");
     add_loop_options(*command, options->simulation.loop);
     add_consistency_options(*command, options->simulation.consistency);
     add_filter_options(*command, options->filter);

@@ -52,13 +52,24 @@ method_runner::method_runner(const loaded_robot& robot, const std::string& robot
       logs_(logs),
       filter_(filter),
       request_(request),
-      experiment_{robot.model(), logs, filter} {}
+      experiment_{robot.model(), logs, filter} {
+    if (!request.period.empty()) {
+        periods_ = find_periods(logs, filter, request.period);
+    }
+}
 
 observation method_runner::all_rows() const {
+    if (periods_ && periods_->averages()) {
+        return rows_of_period(fitted(periods_->average), periods_->parts, filter_);
+    }
     std::vector<filtered_samples> samples;
     for (const idim::log& log : logs_) {
         samples.push_back(filter_log(log, filter_));
     }
+    return fitted(samples);
+}
+
+observation method_runner::fitted(const std::vector<filtered_samples>& samples) const {
     if (!depends_on_parameters(robot_.model())) {
         return with_log_columns(robot_.model(), observe(robot_.model(), samples, filter_));
     }
@@ -97,16 +108,45 @@ loop_estimate method_runner::simulate(const std::string& method, const observati
     return identify_in_loop(experiment_, loop, rows, simulating_methods().at(method), start.chi, request_.options);
 }
 
+bool method_runner::whitens(const std::string& method) const {
+    return periods_ && periods_->weights() && (method == "wls" || method == "cwls");
+}
+
+estimate method_runner::least_squares_of(const std::string& method, const observation& rows,
+                                         method_result& result) const {
+    if (!whitens(method)) {
+        return without_simulation(method, rows);
+    }
+    estimate fit = fit_whitened(rows, whiten(rows, periods_->scatter));
+    if (fit.chi.size() > 0) {
+        result.scatter_deviations = scatter_deviations(rows, periods_->scatter);
+    }
+    return fit;
+}
+
+consistent_estimate method_runner::consistent_of(const observation& rows) const {
+    const physical_parameters known = physical_parameters_of(robot_);
+    consistency_request request = request_of(request_.consistency, robot_, known);
+    if (!whitens("cwls")) {
+        return consistent_fit(robot_.model(), rows, known, request);
+    }
+    request.weights_joints = false;
+    consistent_estimate found = consistent_fit(robot_.model(), whiten(rows, periods_->scatter), known, request);
+    if (found.fit.chi.size() > 0) {
+        restore_units(rows, found.fit);
+        restore_units(rows, found.unconstrained);
+    }
+    return found;
+}
+
 method_result method_runner::run(const std::string& method, const observation& rows) {
     method_result result;
     result.method = method;
     if (method == "cwls") {
-        const physical_parameters known = physical_parameters_of(robot_);
-        result.consistent =
-            consistent_fit(robot_.model(), rows, known, request_of(request_.consistency, robot_, known));
+        result.consistent = consistent_of(rows);
         result.fit = result.consistent->fit;
     } else if (!simulates(method)) {
-        result.fit = without_simulation(method, rows);
+        result.fit = least_squares_of(method, rows, result);
     } else {
         start_point start = start_for(rows);
         if (start.chi.size() == 0) {

@@ -8,6 +8,7 @@
 #include "idim/instrument_test.hpp"
 #include "idim/loop_identification.hpp"
 #include "idim/residual_test.hpp"
+#include "periodic_logs.hpp"
 #include "simulated_loop.hpp"
 
 namespace idim::cli {
@@ -24,6 +25,7 @@ struct method_request {
     std::string start = "ls";  ///< ls, regular, or a file of parameters
     loop_options options;
     consistency_options consistency;  ///< of cwls
+    std::string period;               ///< empty, auto, or seconds; of ols, wls and cwls
 };
 
 /// What one method made of the rows.
@@ -33,6 +35,7 @@ struct method_result {
     std::vector<residual_test> residual;                 ///< per joint; empty without parameters
     std::optional<instrument_test> instruments;          ///< of iv
     std::optional<consistent_estimate> consistent = {};  ///< of cwls
+    Eigen::VectorXd scatter_deviations = {};             ///< of wls on averaged periods whose torque scatters
     std::string start;       ///< where the iterations began, one phrase; empty without simulation
     std::string assumption;  ///< of the control law; empty if the declared one was simulated
 };
@@ -51,6 +54,8 @@ class method_runner {
     observation steady_rows();
     /// `rows`: steady_rows() for a method that simulates, either for the others.
     method_result run(const std::string& method, const observation& rows);
+    /// The periods of the logs; nothing if the user did not ask for them.
+    const std::optional<periodic_logs>& periods() const { return periods_; }
 
   private:
     struct start_point {
@@ -59,6 +64,10 @@ class method_runner {
     };
 
     const simulated_loops& loops();
+    observation fitted(const std::vector<filtered_samples>& samples) const;
+    bool whitens(const std::string& method) const;
+    estimate least_squares_of(const std::string& method, const observation& rows, method_result& result) const;
+    consistent_estimate consistent_of(const observation& rows) const;
     start_point start_for(const observation& rows) const;
     loop_estimate simulate(const std::string& method, const observation& rows, const start_point& start);
 
@@ -69,6 +78,7 @@ class method_runner {
     const method_request& request_;
     loop_experiment experiment_;
     std::optional<simulated_loops> loops_;
+    std::optional<periodic_logs> periods_;
 };
 
 }  // namespace idim::cli

@@ -5,6 +5,7 @@
 #include "idim/log_parameters.hpp"
 #include "measured_motion.hpp"
 #include "simulated_loop.hpp"
+#include "torque_bands.hpp"
 
 namespace idim::cli {
 
@@ -17,6 +18,7 @@ struct validate_options {
     filter_request filter;
     bool simulate = false;
     loop_request loop;
+    std::string series_file;
     std::string json_file;
 };
 
@@ -73,6 +75,33 @@ void print_simulation(const simulated_validation& simulated, const loaded_robot&
     print(result.simulated, robot);
 }
 
+/// Bands for rows filtered as those were that the parameters were identified from; others have other errors.
+std::optional<torque_bands> bands_for(const observation& rows, const Eigen::VectorXd& chi,
+                                      const identified_parameters& parameters, const filter_choice& filter) {
+    const bool same = parameters.filter && parameters.filter->cutoff == filter.cutoff &&
+                      parameters.filter->order == filter.order && parameters.filter->decimation == filter.decimation;
+    return same && parameters.spread && chi.size() == parameters.chi.size()
+               ? std::optional(bands_of(rows, chi, *parameters.spread))
+               : std::nullopt;
+}
+
+/// Errors of `rows`, with the bands, in both forms.
+json report_rows(const observation& rows, const Eigen::VectorXd& chi, const identified_parameters& parameters,
+                 const std::optional<torque_bands>& bands, const loaded_robot& robot, bool prints) {
+    const error_summary total = errors(rows, chi);
+    json content = to_json(total, robot);
+    if (bands) {
+        add_bands(content["joints"], *bands, *parameters.spread);
+    }
+    if (prints) {
+        print(total, robot);
+        if (bands) {
+            print(*bands, robot);
+        }
+    }
+    return content;
+}
+
 int run(const validate_options& options) {
     const loaded_robot robot = load_robot(options.robot);
     const identified_parameters parameters = read_parameters(options.result, robot);
@@ -80,8 +109,6 @@ int run(const validate_options& options) {
     const filter_choice filter = filter_for(options, parameters, logs);
     const observation all = with_log_columns(robot.model(), observe_logs(robot, logs, filter, parameters.chi));
     const Eigen::VectorXd chi = with_log_parameters(robot.model(), all, parameters.chi);
-    const error_summary total = errors(all, chi);
-    json content = to_json(total, robot);
     std::optional<simulated_validation> simulated;
     if (options.simulate) {
         simulated = simulate_logs(options, robot, logs, filter, parameters.chi);
@@ -89,29 +116,34 @@ int run(const validate_options& options) {
             throw data_error(simulated->result.failure);
         }
     }
+    const bool prints = prints_text(options.json_file);
+    if (prints) {
+        fmt::print("{}: {} validated on {} rows\n  {}\n", robot.generated.robot, options.result, all.rows(),
+                   filter.reason);
+    }
+    const std::optional<torque_bands> bands = bands_for(all, chi, parameters, filter);
+    json content = report_rows(all, chi, parameters, bands, robot, prints);
     content["robot"] = robot.generated.robot;
     content["filter"] = to_json(filter);
     content["logs"] = json::array();
-    if (prints_text(options.json_file)) {
-        fmt::print("{}: {} validated on {} rows\n  {}\n", robot.generated.robot, options.result, all.rows(),
-                   filter.reason);
-        print(total, robot);
-    }
     for (const observation_block& block : all.blocks) {
-        const error_summary one = errors({{block}, all.dof, all.n_base}, chi);
-        json entry = {{"log", block.file}};
-        entry.update(to_json(one, robot));
-        content["logs"].push_back(entry);
-        if (prints_text(options.json_file) && all.blocks.size() > 1) {
+        const observation one{{block}, all.dof, all.n_base};
+        const bool prints_one = prints && all.blocks.size() > 1;
+        if (prints_one) {
             fmt::print("  {}:", block.file);
-            print(one, robot);
         }
+        json entry = {{"log", block.file}};
+        entry.update(report_rows(one, chi, parameters, bands_for(one, chi, parameters, filter), robot, prints_one));
+        content["logs"].push_back(entry);
     }
     if (simulated) {
         content["simulation"] = simulation_json(*simulated, robot);
         if (prints_text(options.json_file)) {
             print_simulation(*simulated, robot);
         }
+    }
+    if (!options.series_file.empty()) {
+        write_text(options.series_file, series_text(all, chi, robot, bands));
     }
     write_json(options.json_file, content);
     return exit_done;
@@ -121,7 +153,8 @@ int run(const validate_options& options) {
 
 void add_validate_command(CLI::App& app, action& chosen) {
     const auto options = std::make_shared<validate_options>();
-    CLI::App* command = app.add_subcommand("validate", "errors of an identified model on other data");
+    CLI::App* command =
+        app.add_subcommand("validate", "errors of an identified model on other data, with confidence bands");
     command->add_option("robot", options->robot, "robot description (.yaml, .urdf)")->required();
     command->add_option("result", options->result, "result of identify --json, or a map of parameter names to values")
         ->required();
@@ -130,6 +163,9 @@ void add_validate_command(CLI::App& app, action& chosen) {
     command->add_flag("--simulate", options->simulate,
                       "simulate the closed loop along the references and compare the motion");
     add_loop_options(*command, options->loop);
+    command->add_option(
+        "--series", options->series_file,
+        "writes torque, prediction and 95 % band of every row (CSV: log,joint,t,tau,predicted,low,high)");
     add_json_option(*command, options->json_file);
     command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }

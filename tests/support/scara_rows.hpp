@@ -40,8 +40,10 @@ inline motion multi_sine(double t, int joint) {
     return m;
 }
 
-/// Block of noise-free rows at `rate` [Hz] from `start` [s] on; Y = W chi.
-inline observation_block scara_block(double start, Eigen::Index rows, double rate, const Eigen::VectorXd& chi) {
+/// Block of noise-free rows at `rate` [Hz] from `start` [s] on along motion_of(t, joint); Y = W chi.
+template <typename Motion>
+observation_block scara_block(double start, Eigen::Index rows, double rate, const Eigen::VectorXd& chi,
+                              Motion motion_of) {
     observation_block block;
     block.file = "scara.csv";
     block.rate = rate;
@@ -49,8 +51,8 @@ inline observation_block scara_block(double start, Eigen::Index rows, double rat
     block.kept = all_rows(2, rows);
     block.W.assign(2, Eigen::MatrixXd::Zero(rows, 8));
     for (Eigen::Index k = 0; k < rows; ++k) {
-        const motion a = multi_sine(block.t[k], 0);
-        const motion b = multi_sine(block.t[k], 1);
+        const motion a = motion_of(block.t[k], 0);
+        const motion b = motion_of(block.t[k], 1);
         const double c = std::cos(b.q);
         const double s = std::sin(b.q);
         const double both = 2.0 * a.qdd + b.qdd;
@@ -65,6 +67,10 @@ inline observation_block scara_block(double start, Eigen::Index rows, double rat
         block.Y.push_back(W * chi);
     }
     return block;
+}
+
+inline observation_block scara_block(double start, Eigen::Index rows, double rate, const Eigen::VectorXd& chi) {
+    return scara_block(start, rows, rate, chi, multi_sine);
 }
 
 /// Leaves out the rows of one joint whose sample `out(k)` names; its rows must be all samples before.

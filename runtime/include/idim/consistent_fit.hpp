@@ -54,6 +54,7 @@ struct consistency_request {
     /// Smallest eigenvalue that the matrix of a body may have [kg m^2 and kg]; default 1e-6 of the largest inertial
     /// parameter.
     std::optional<double> floor = {};
+    bool weights_joints = true;  ///< false: the rows are whitened (periodic.hpp), in units of their own deviation
 };
 
 /// A body as identified.

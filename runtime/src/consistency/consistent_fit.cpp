@@ -166,7 +166,7 @@ consistent_estimate consistent_fit(const idim_model_interface& model, const obse
         result.fit = ordinary;
         return result;
     }
-    const std::vector<double> weight = weights_of(ordinary.joint_deviation);
+    const std::vector<double> weight = request.weights_joints ? weights_of(ordinary.joint_deviation) : unweighted;
     weighted_solution weighted = solve_weighted(rows, weight);
     result.fit = weighted.fit;
     if (weighted.fit.chi.size() == 0) {
