@@ -194,18 +194,20 @@ void robot_motion::free_acceleration(const double* q, double t, const Eigen::Vec
 /// holding = 0 elsewhere. Newton's method on the direct model, which is affine in the torque but for effects of the
 /// load.
 void robot_motion::held_acceleration(const double* q, double t, double* qdd) {
-    std::vector<Eigen::Index> joints, rest;  // that rest, and their coordinates
+    std::vector<Eigen::Index> joints;
     for (Eigen::Index j = 0; j < n_; ++j) {
         if (side_[static_cast<std::size_t>(j)] == side::rest) {
             joints.push_back(j);
-            rest.push_back(motor_[static_cast<std::size_t>(j)]);
         }
     }
+    Eigen::VectorX<Eigen::Index> rest(static_cast<Eigen::Index>(joints.size()));  // their coordinates
+    std::transform(joints.begin(), joints.end(), rest.data(),
+                   [this](Eigen::Index j) { return motor_[static_cast<std::size_t>(j)]; });
     Eigen::Map<Eigen::VectorXd> result(qdd, size_);
     Eigen::VectorXd moved(size_);
     Eigen::MatrixXd slope(rest.size(), rest.size());
     free_acceleration(q, t, tau_, qdd);
-    for (std::size_t k = 0; k < rest.size(); ++k) {
+    for (std::size_t k = 0; k < joints.size(); ++k) {
         Eigen::VectorXd more = tau_;
         more[joints[k]] += 1.0;
         free_acceleration(q, t, more, moved.data());
@@ -219,7 +221,7 @@ void robot_motion::held_acceleration(const double* q, double t, double* qdd) {
     constexpr int most = 4;
     for (int i = 0; i < most && result(rest).norm() > 1e-12 * (1.0 + result.norm()); ++i) {
         const Eigen::VectorXd correction = factors.solve(Eigen::VectorXd(result(rest)));
-        for (std::size_t k = 0; k < rest.size(); ++k) {
+        for (std::size_t k = 0; k < joints.size(); ++k) {
             holding_[joints[k]] += correction[static_cast<Eigen::Index>(k)];
         }
         free_acceleration(q, t, tau_ - holding_, qdd);
