@@ -14,6 +14,7 @@
 #include "idim/input_error.hpp"
 #include "model_candidates.hpp"
 #include "noise_floor.hpp"
+#include "size_constancy.hpp"
 #include "structure_proposal.hpp"
 #include "term_deviations.hpp"
 
@@ -75,6 +76,16 @@ Eigen::VectorXd least_values(const trace_input& input) {
     return least;
 }
 
+effect_place place_of(const effect_candidate& candidate) {
+    return {candidate.effect, candidate.joints, candidate.from};
+}
+
+/// A name that was given and taken back: what it explained changes with another joint's position.
+struct suspect {
+    effect_place place;
+    int changes_with;
+};
+
 class tracer {
   public:
     explicit tracer(const trace_input& input) : input_(input) {
@@ -92,13 +103,9 @@ class tracer {
         trace_fit fit = fit_with_own_noise(logs_, {});
         result_.before = {errors_of(fit, false), errors_of(fit, true)};
         fit = aligned(std::move(fit));
-        for (int step = 0; step < input_.most_effects; ++step) {
-            std::optional<trace_fit> next = with_one_more(fit);
-            if (!next) {
-                break;
-            }
-            fit = std::move(*next);
-        }
+        do {
+            fit = with_all_that_pass(std::move(fit));
+        } while (input_.only.empty() && takes_suspects_out(fit));
         if (input_.most_effects == 0) {
             look(fit);
         }
@@ -165,7 +172,7 @@ class tracer {
         }
         for (const candidate_pointer& candidate : tried) {
             if (!candidate->when_permanent.empty()) {
-                effects.push_back({{candidate->effect, candidate->joints, candidate->from}, candidate->when_permanent});
+                effects.push_back({place_of(*candidate), candidate->when_permanent});
             }
         }
         return effects;
@@ -178,20 +185,19 @@ class tracer {
         result_.tests = all.tests;
         result_.not_identifiable = hidden(all, candidates);
         result_.candidates.clear();
-        for (const tried_candidate& tried : all.candidates) {
+        for (tried_candidate& tried : all.candidates) {
             const effect_evidence& evidence = tried.evidence;
             const effect_candidate& candidate = *evidence.term.candidate;
+            for (const suspect& known : suspects_) {
+                if (known.place == place_of(candidate)) {
+                    tried.objection = fmt::format("its size would change with q{}", known.changes_with + 1);
+                }
+            }
             std::vector<double> values(evidence.coefficient.begin(), evidence.coefficient.end());
             values.insert(values.end(), evidence.term.shape.begin(), evidence.term.shape.end());
-            result_.candidates.push_back({{candidate.effect, candidate.joints, candidate.from},
-                                          tried.p_value,
-                                          evidence.explained_fraction,
-                                          evidence.f_statistic,
-                                          evidence.correlation_length,
-                                          evidence.z_all(),
-                                          evidence.z_moving(),
-                                          std::move(values),
-                                          tried.objection});
+            result_.candidates.push_back({place_of(candidate), tried.p_value, evidence.explained_fraction,
+                                          evidence.f_statistic, evidence.correlation_length, evidence.z_all(),
+                                          evidence.z_moving(), std::move(values), tried.objection});
         }
         return all;
     }
@@ -200,20 +206,74 @@ class tracer {
     /// is no such candidate, or the fit is no better for it.
     std::optional<trace_fit> with_one_more(const trace_fit& fit) {
         const effect_survey all = look(fit);
-        for (std::size_t i = 0; i < all.candidates.size() && all.candidates[i].objection.empty(); ++i) {
+        for (std::size_t i = 0; i < all.candidates.size(); ++i) {
+            if (!all.candidates[i].objection.empty()) {
+                continue;
+            }
             std::vector<effect_term> terms = fit.terms();
             terms.push_back(all.candidates[i].evidence.term);
             trace_fit with = settled(fit_with_own_noise(logs_, terms, &fit.noise()));
-            if (errors_of(with, true).relative_error > (1.0 + error_margin) * errors_of(fit, true).relative_error ||
-                explained_fraction(fit, with, all.candidates[i].evidence.term.candidate->joints, {}) <
-                    least_explained ||
-                makes_implausible(fit, with) || has_loose_shape(with)) {
+            const std::string objection =
+                objection_once_fitted(fit, with, all.candidates[i].evidence.term.candidate->joints);
+            if (!objection.empty()) {
+                result_.candidates[i].objection = objection;
                 continue;
             }
             record(fit, with, all, i);
             return pruned(std::move(with));
         }
         return std::nullopt;
+    }
+
+    trace_fit with_all_that_pass(trace_fit fit) {
+        while (static_cast<int>(result_.steps.size()) < input_.most_effects) {
+            std::optional<trace_fit> next = with_one_more(fit);
+            if (!next) {
+                break;
+            }
+            fit = std::move(*next);
+        }
+        return fit;
+    }
+
+    /// Takes terms out whose names do not hold: asked once nothing else passes, for an effect still missing elsewhere
+    /// would seem to change the size of those that are found already. Such a name is not given again.
+    bool takes_suspects_out(trace_fit& fit) {
+        std::vector<effect_term> kept(fit.terms().begin(), fit.terms().begin() + fixed_);
+        std::vector<trace_step> steps;
+        for (std::size_t s = 0; s < result_.steps.size(); ++s) {
+            const std::size_t term = s + static_cast<std::size_t>(fixed_);
+            if (const std::optional<int> other = joint_that_changes(fit, term)) {
+                const effect_place& place = result_.steps[s].place;
+                suspects_.push_back({place, *other});
+                say(fmt::format("{} at joint {} is taken back: its size changes with q{}", place.effect,
+                                place.joints.front() + 1, *other + 1));
+            } else {
+                kept.push_back(fit.terms()[term]);
+                steps.push_back(std::move(result_.steps[s]));
+            }
+        }
+        const bool any = kept.size() < fit.terms().size();
+        if (any) {
+            fit = settled(fit_with_own_noise(logs_, kept, &fit.noise()));
+        }
+        result_.steps = std::move(steps);
+        return any;
+    }
+
+    /// Why the fit with one term more is not taken, everything fitted again; empty if it is.
+    std::string objection_once_fitted(const trace_fit& fit, const trace_fit& with,
+                                      const std::vector<int>& joints) const {
+        if (errors_of(with, true).relative_error > (1.0 + error_margin) * errors_of(fit, true).relative_error) {
+            return "raises the error of the data held back once everything is fitted again";
+        }
+        if (explained_fraction(fit, with, joints, {}) < least_explained) {
+            return "explains next to nothing once everything is fitted again";
+        }
+        if (makes_implausible(fit, with)) {
+            return "makes a coefficient implausible";
+        }
+        return has_loose_shape(with) ? "its shape is anybody's guess" : "";
     }
 
     /// Whether a coefficient that cannot be negative, such as a friction's, has become so beyond its uncertainty.
@@ -312,7 +372,7 @@ class tracer {
         const tried_candidate& tried = all.candidates[chosen];
         const effect_candidate& candidate = *tried.evidence.term.candidate;
         trace_step step;
-        step.place = {candidate.effect, candidate.joints, candidate.from};
+        step.place = place_of(candidate);
         step.p_value = tried.p_value;
         step.explained_fraction = explained_fraction(before, after, candidate.joints, result_.floor);
         step.confusable_with = confusable_with(before, all, chosen);
@@ -358,7 +418,8 @@ class tracer {
     std::vector<traced_log> logs_;
     effect_trace result_;
     Eigen::VectorXd least_;  ///< smallest value of each base parameter that makes sense
-    int fixed_ = 0;          ///< terms in front that are no effects
+    std::vector<suspect> suspects_;
+    int fixed_ = 0;  ///< terms in front that are no effects
 };
 
 }  // namespace
