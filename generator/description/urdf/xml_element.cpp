@@ -1,5 +1,7 @@
 #include "description/urdf/xml_element.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -94,7 +96,7 @@ class xml_scanner {
 
     char next(const char* expected) const {
         if (at_ >= text_.size()) {
-            fail(std::string("not XML: the file ends, expected ") + expected);
+            fail(fmt::format("not XML: the file ends, expected {}", expected));
         }
         return text_[at_];
     }
