@@ -141,7 +141,7 @@ TEST_F(ExpressionParser, RefusesDeepAndLongTexts) {
         calls = "sin(" + calls + ")";
     }
     error_of(calls);
-    error_of(std::string(900, '-') + "x");
+    error_of(std::string(900, '-').append("x"));
 }
 
 TEST_F(ExpressionParser, EveryMessageIsOneLine) {
