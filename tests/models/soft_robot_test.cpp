@@ -1,5 +1,4 @@
-// A robot with a soft transmission through the commands: its links swing behind their motors, and with the elasticity
-// declared its own log gives the parameters back.
+// A robot with a soft transmission through the commands: its link swings behind its motor.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,18 +29,16 @@ constexpr const char* arm =
 const std::map<std::string, double> truth = {{"ZZ1R", 2.54}, {"MX1R", 3.6}, {"MY1", 0.0}, {"Fv1", 3.0},
                                              {"Fc1", 2.0},   {"ZZ2", 0.3},  {"MX2", 0.8}, {"MY2", 0.0},
                                              {"Ia2", 0.2},   {"Fv2", 1.0},  {"Fc2", 1.0}};
-constexpr const char* elasticity = "  - {effect: joint_elasticity, joints: [j2], shape: {K: 1500}}\n";
 
 class SoftRobot : public testing::Test {
   protected:
     SoftRobot() {
         std::ofstream(path("rigid.yaml")) << arm;
-        std::ofstream(path("soft.yaml")) << arm << elasticity;
         std::ofstream file(path("reference.csv"));
         file << "t,qr1,qr2\n" << std::setprecision(12);
-        for (int k = 0; k <= 20000; ++k) {
+        for (int k = 0; k <= 8000; ++k) {
             const double t = k / 1000.0;
-            const double slow = std::pow(std::sin(M_PI * t / 20.0), 2);
+            const double slow = std::pow(std::sin(M_PI * t / 8.0), 2);
             file << t << "," << slow * (0.7 * std::sin(1.3 * t) + 0.3 * std::sin(5.1 * t)) << ","
                  << slow * (0.8 * std::sin(2.1 * t) + 0.3 * std::sin(7.3 * t)) << "\n";
         }
@@ -49,41 +46,46 @@ class SoftRobot : public testing::Test {
 
     std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
 
-    command_result simulate(const std::map<std::string, double>& parameters) const {
+    command_result simulate(const std::map<std::string, double>& parameters, const char* stiffness) const {
+        std::ofstream(path("soft.yaml")) << arm
+                                         << "  - {effect: joint_elasticity, joints: [j2], shape: {K: " << stiffness
+                                         << "}}\n";
         std::ofstream(path("truth.json")) << json(parameters);
         return run_idim({"simulate", path("soft.yaml"), "--parameters", path("truth.json"), "--reference",
                          path("reference.csv"), "-o", path("log.csv"), "--torque-noise", "0.01", "0.01",
                          "--position-noise", "1e-7", "1e-7"});
     }
 
-    double error_of(const char* robot) const {
-        const command_result answer = run_idim({"identify", path(robot), path("log.csv"), "--cutoff", "15",
+    /// What a model without the elasticity makes of the simulated log.
+    json identified_as_rigid() const {
+        const command_result answer = run_idim({"identify", path("rigid.yaml"), path("log.csv"), "--cutoff", "15",
                                                 "--decimation", "20", "--json", path("result.json")});
         EXPECT_EQ(answer.status, 0) << answer.err;
-        const json result = json::parse(read_text(path("result.json")));
-        parameters_.clear();
-        for (const json& parameter : result["parameters"]) {
-            parameters_[parameter["name"]] = parameter["value"];
-        }
-        return result["residual"]["joints"][1]["relative_error"];
+        return json::parse(read_text(path("result.json")));
     }
 
     temporary_folder folder_;
-    mutable std::map<std::string, double> parameters_;
 };
 
-TEST_F(SoftRobot, IsIdentifiedFromItsOwnSimulationWithItsElasticityDeclared) {
-    const command_result simulated = simulate(truth);
-    ASSERT_EQ(simulated.status, 0) << simulated.err;
-    const double rigid = error_of("rigid.yaml");
-    const double soft = error_of("soft.yaml");
-    EXPECT_LT(soft, 0.5 * rigid) << rigid;
+TEST_F(SoftRobot, MovesAsARigidOneWhereItIsStiffAndNotWhereItIsSoft) {
+    const auto error = [](const json& result) {
+        return result["residual"]["joints"][1]["relative_error"].get<double>();
+    };
+    ASSERT_EQ(simulate(truth, "1e5").status, 0);
+    const json stiff = identified_as_rigid();
+    for (const json& parameter : stiff["parameters"]) {
+        const std::string name = parameter["name"];
+        // One draw of eleven parameters, and friction at reversals that filters blur: no statement of coverage.
+        EXPECT_NEAR(parameter["value"].get<double>(), truth.at(name), 4.0 * parameter["std"].get<double>()) << name;
+    }
+    ASSERT_EQ(simulate(truth, "1500").status, 0);  // the link swings at 11 Hz behind a motor that stands still
+    EXPECT_GT(error(identified_as_rigid()), 1.5 * error(stiff));
 }
 
 TEST_F(SoftRobot, WithoutARotorIsRefusedBeforeAnythingIsWritten) {
     std::map<std::string, double> no_rotor = truth;
     no_rotor["Ia2"] = 0.0;
-    const command_result simulated = simulate(no_rotor);
+    const command_result simulated = simulate(no_rotor, "1e5");
     EXPECT_EQ(simulated.status, 3);
     EXPECT_NE(simulated.err.find("joint j2: joint_elasticity without inertia"), std::string::npos) << simulated.err;
     EXPECT_FALSE(std::filesystem::exists(path("log.csv")));
