@@ -1,6 +1,7 @@
 // A robot with a soft transmission through the commands: its link swings behind its motor.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -56,30 +57,37 @@ class SoftRobot : public testing::Test {
                          "--position-noise", "1e-7", "1e-7"});
     }
 
-    /// What a model without the elasticity makes of the simulated log.
-    json identified_as_rigid() const {
-        const command_result answer = run_idim({"identify", path("rigid.yaml"), path("log.csv"), "--cutoff", "15",
+    json identified(const char* robot) const {
+        const command_result answer = run_idim({"identify", path(robot), path("log.csv"), "--cutoff", "15",
                                                 "--decimation", "20", "--json", path("result.json")});
         EXPECT_EQ(answer.status, 0) << answer.err;
         return json::parse(read_text(path("result.json")));
     }
 
+    /// Largest distance of a parameter of the second link or its rotor from the truth, in deviations.
+    static double distance(const json& result) {
+        double worst = 0.0;
+        for (const json& parameter : result["parameters"]) {
+            const std::string name = parameter["name"];
+            const bool inertial = name == "ZZ2" || name == "MX2" || name == "MY2" || name == "Ia2";
+            const double off = std::abs(parameter["value"].get<double>() - truth.at(name));
+            worst = std::max(worst, inertial ? off / parameter["std"].get<double>() : 0.0);
+        }
+        return worst;
+    }
+
     temporary_folder folder_;
 };
 
-TEST_F(SoftRobot, MovesAsARigidOneWhereItIsStiffAndNotWhereItIsSoft) {
-    const auto error = [](const json& result) {
-        return result["residual"]["joints"][1]["relative_error"].get<double>();
-    };
+TEST_F(SoftRobot, MovesAsARigidOneWhereItIsStiff) {
     ASSERT_EQ(simulate(truth, "1e5").status, 0);
-    const json stiff = identified_as_rigid();
-    for (const json& parameter : stiff["parameters"]) {
-        const std::string name = parameter["name"];
-        // One draw of eleven parameters, and friction at reversals that filters blur: no statement of coverage.
-        EXPECT_NEAR(parameter["value"].get<double>(), truth.at(name), 4.0 * parameter["std"].get<double>()) << name;
-    }
+    EXPECT_LT(distance(identified("rigid.yaml")), 4.0);  // one draw: no statement of coverage
+}
+
+TEST_F(SoftRobot, IsIdentifiedWithItsElasticityDeclaredAndNotWithout) {
     ASSERT_EQ(simulate(truth, "1500").status, 0);  // the link swings at 11 Hz behind a motor that stands still
-    EXPECT_GT(error(identified_as_rigid()), 1.5 * error(stiff));
+    EXPECT_GT(distance(identified("rigid.yaml")), 4.0);
+    EXPECT_LT(distance(identified("soft.yaml")), 3.0);
 }
 
 TEST_F(SoftRobot, WithoutARotorIsRefusedBeforeAnythingIsWritten) {
