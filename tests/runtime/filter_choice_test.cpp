@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <ostream>
 #include <random>
 #include <string>
 
@@ -195,6 +196,10 @@ struct measured_case {
     const char* file;
     double cutoff;
 };
+
+void PrintTo(const measured_case& record, std::ostream* out) {
+    *out << record.file;
+}
 
 class MeasuredFilterChoice : public testing::TestWithParam<measured_case> {};
 

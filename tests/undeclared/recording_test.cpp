@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <functional>
+#include <ostream>
 
 #include "undeclared/bench_case.hpp"
 
@@ -58,6 +59,10 @@ struct known_effect {
     missing_effect effect;
     formula torque;
 };
+
+void PrintTo(const known_effect& known, std::ostream* out) {
+    *out << known.effect.name;
+}
 
 class EffectTorque : public testing::TestWithParam<known_effect> {};
 
