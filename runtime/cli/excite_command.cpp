@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <ctime>
 
 #include "description/robot_description.hpp"
 #include "excitation_limits.hpp"
@@ -34,14 +35,26 @@ struct excite_options {
 };
 
 volatile std::sig_atomic_t interrupted = 0;
+volatile std::time_t first_interrupt = 0;
 
-/// While it lives the first interrupt is noted; a second one ends the command.
+/// Notes the first interrupt; a later one ends the command. What comes within a second or two is the same one: a
+/// process and its group may each be sent it.
+void note_interrupt(int signal) {
+    if (interrupted == 0) {
+        interrupted = 1;
+        first_interrupt = std::time(nullptr);
+    } else if (std::time(nullptr) > first_interrupt + 1) {
+        std::signal(signal, SIG_DFL);
+        std::raise(signal);
+    }
+}
+
+/// While it lives interrupts are noted.
 class interrupt_watch {
   public:
     interrupt_watch() {
         struct sigaction action {};
-        action.sa_handler = [](int) { interrupted = 1; };
-        action.sa_flags = static_cast<int>(SA_RESETHAND);
+        action.sa_handler = note_interrupt;
         sigaction(SIGINT, &action, &before_);
     }
     ~interrupt_watch() { sigaction(SIGINT, &before_, nullptr); }
