@@ -82,8 +82,10 @@ std::vector<double> weights_for(const fitted_rows& fit, least_squares_method met
 fitted_rows fit_rows(const idim_model_interface& model, const std::vector<filtered_samples>& logs,
                      const filter_choice& choice, least_squares_method method) {
     constexpr int most_steps = 50;
-    constexpr double settled = 1e-9;               // of the torque; the deviations of parameters are many times that
-    constexpr double settled_with_weights = 1e-7;  // weights are an iteration of their own, which leaves some 1e-8
+    constexpr double settled = 1e-9;  // of the torque; the deviations of parameters are many times that
+    // Weights are an iteration of their own, which leaves some 1e-7 with few rows: less than a hundredth of a
+    // deviation.
+    constexpr double settled_with_weights = 1e-6;
     fitted_rows fit;
     fit.rows = with_log_columns(model, observe(model, logs, choice));
     fit.result = least_squares(fit.rows, method);
