@@ -1,16 +1,15 @@
 #include "consistency_options.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <map>
+#include <optional>
 
 #include "description/robot_description.hpp"
 #include "identified_parameters.hpp"
 #include "idim/input_error.hpp"
+#include "option_text.hpp"
 
 namespace idim::cli {
 
@@ -28,58 +27,35 @@ std::vector<std::string> split(const std::string& text, char separator) {
     return parts;
 }
 
-[[noreturn]] void refuse(const std::string& option, const std::string& text, const std::string& expected) {
-    throw input_error({"", 0, option}, fmt::format("\"{}\", expected {}", text, expected));
-}
-
 /// "0.5:5", "0.5:" or ":5".
 interval interval_of(const std::string& option, const std::string& text) {
     const std::vector<std::string> ends = split(text, ':');
     const std::string expected = "LOW:HIGH, two numbers, one of which may be left out";
     if (ends.size() != 2 || (ends[0].empty() && ends[1].empty())) {
-        refuse(option, text, expected);
+        refuse_option(option, text, expected);
     }
     const auto number = [&](const std::string& end, double missing) {
-        double value = missing;
-        const char* last = end.data() + end.size();
-        if (!end.empty()) {
-            const auto [stop, error] = std::from_chars(end.data(), last, value);
-            if (error != std::errc() || stop != last || !std::isfinite(value)) {
-                refuse(option, text, expected);
-            }
+        const std::optional<double> value = end.empty() ? missing : finite_number(end);
+        if (!value) {
+            refuse_option(option, text, expected);
         }
-        return value;
+        return *value;
     };
     const interval range{number(ends[0], interval().low), number(ends[1], interval().high)};
     if (!(range.low < range.high)) {
-        refuse(option, text, "the lower number first");
+        refuse_option(option, text, "the lower number first");
     }
     return range;
 }
 
-/// The bodies that "j3=..." or, without a joint, all of "..." names, and the text behind.
-struct addressed {
-    std::vector<std::size_t> bodies;
-    std::string text;
-};
-
-addressed address(const std::string& option, const std::string& text, const physical_parameters& known) {
-    addressed result;
-    const std::size_t equals = text.find('=');
-    result.text = equals == std::string::npos ? text : text.substr(equals + 1);
-    for (std::size_t i = 0; i < known.bodies.size(); ++i) {
-        if (equals == std::string::npos || known.bodies[i].name == "link of " + text.substr(0, equals)) {
-            result.bodies.push_back(i);
-        }
+/// What the links are addressed by: the names of their joints.
+std::vector<std::string> names_of(const physical_parameters& known) {
+    const std::string before = "link of ";
+    std::vector<std::string> names;
+    for (const inertial_body& body : known.bodies) {
+        names.push_back(body.name.rfind(before, 0) == 0 ? body.name.substr(before.size()) : body.name);
     }
-    if (result.bodies.empty()) {
-        std::vector<std::string> names;
-        for (const inertial_body& body : known.bodies) {
-            names.push_back(body.name);
-        }
-        refuse(option, text, fmt::format("one joint of: {}", fmt::join(names, ", ")));
-    }
-    return result;
+    return names;
 }
 
 /// A map of standard parameters, a result of cwls, or the a-priori parameters of a robot description.
@@ -169,18 +145,18 @@ consistency_request request_of(const consistency_options& options, const loaded_
         options.objective == "weighted" ? consistency_objective::weighted : consistency_objective::normal;
     request.bodies.resize(known.bodies.size());
     for (const std::string& text : options.mass_bounds) {
-        const addressed at = address("--mass-bounds", text, known);
-        for (const std::size_t body : at.bodies) {
+        const addressed at = address("--mass-bounds", text, names_of(known));
+        for (const std::size_t body : at.places) {
             request.bodies[body].mass = interval_of("--mass-bounds", at.text);
         }
     }
     for (const std::string& text : options.com_boxes) {
-        const addressed at = address("--com-box", text, known);
+        const addressed at = address("--com-box", text, names_of(known));
         const std::vector<std::string> axes = split(at.text, ',');
         if (axes.size() != 3) {
-            refuse("--com-box", text, "three intervals, for x, y and z");
+            refuse_option("--com-box", text, "three intervals, for x, y and z");
         }
-        for (const std::size_t body : at.bodies) {
+        for (const std::size_t body : at.places) {
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 request.bodies[body].centre[axis] = interval_of("--com-box", axes[axis]);
             }
@@ -192,7 +168,7 @@ consistency_request request_of(const consistency_options& options, const loaded_
     if (!options.prior.empty()) {
         request.prior = read_prior(options.prior, robot, known);
     } else if (options.prior_strength > 0.0) {
-        refuse("--prior-strength", fmt::format("{}", options.prior_strength), "--prior FILE beside it");
+        refuse_option("--prior-strength", fmt::format("{}", options.prior_strength), "--prior FILE beside it");
     }
     request.prior_strength = options.prior_strength;
     request.floor = options.floor;

@@ -1,16 +1,18 @@
 #include "excitation_limits.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <charconv>
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "description/robot_description.hpp"
 #include "identified_parameters.hpp"
 #include "idim/input_error.hpp"
+#include "idim/recorded_states.hpp"
 #include "kinematics/kinematic_tree.hpp"
+#include "option_text.hpp"
 #include "workspace_file.hpp"
 
 namespace idim::cli {
@@ -19,55 +21,21 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-[[noreturn]] void refuse(const std::string& option, const std::string& text, const std::string& expected) {
-    throw input_error({"", 0, option}, fmt::format("\"{}\", expected {}", text, expected));
-}
-
-/// The joints that "j3=..." or, without a joint, all of "..." names, and the text behind.
-struct addressed {
-    std::vector<Eigen::Index> joints;
-    std::string text;
-};
-
-addressed address(const std::string& option, const std::string& text, const idim_model_interface& model) {
-    addressed result;
-    const std::size_t equals = text.find('=');
-    result.text = equals == std::string::npos ? text : text.substr(equals + 1);
-    std::vector<std::string> names;
-    for (int j = 0; j < model.dof; ++j) {
-        names.emplace_back(model.joint_names[j]);
-        if (equals == std::string::npos || names.back() == text.substr(0, equals)) {
-            result.joints.push_back(j);
-        }
-    }
-    if (result.joints.empty()) {
-        refuse(option, text, fmt::format("one joint of: {}", fmt::join(names, ", ")));
-    }
-    return result;
-}
-
-double number(const std::string& option, const std::string& whole, const std::string& text,
-              const std::string& expected) {
-    double value = NAN;
-    const char* last = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), last, value);
-    if (error != std::errc() || stop != last || !std::isfinite(value)) {
-        refuse(option, whole, expected);
-    }
-    return value;
+std::vector<std::string> joint_names(const idim_model_interface& model) {
+    return {model.joint_names, model.joint_names + model.dof};
 }
 
 void set_positive(const std::string& option, const std::vector<std::string>& texts, const idim_model_interface& model,
                   Eigen::VectorXd& limit) {
     for (const std::string& text : texts) {
-        const addressed target = address(option, text, model);
+        const addressed target = address(option, text, joint_names(model));
         const std::string expected = "VALUE or JOINT=VALUE, a positive number";
-        const double value = number(option, text, target.text, expected);
-        if (!(value > 0.0)) {
-            refuse(option, text, expected);
+        const std::optional<double> value = finite_number(target.text);
+        if (!value || !(*value > 0.0)) {
+            refuse_option(option, text, expected);
         }
-        for (const Eigen::Index j : target.joints) {
-            limit[j] = value;
+        for (const std::size_t j : target.places) {
+            limit[static_cast<Eigen::Index>(j)] = *value;
         }
     }
 }
@@ -75,20 +43,17 @@ void set_positive(const std::string& option, const std::vector<std::string>& tex
 void set_positions(const std::vector<std::string>& texts, const idim_model_interface& model, motion_limits& limits) {
     const std::string option = "--position";
     for (const std::string& text : texts) {
-        const addressed target = address(option, text, model);
+        const addressed target = address(option, text, joint_names(model));
         const std::string expected = "LOW:HIGH or JOINT=LOW:HIGH, two numbers, the lower first";
-        const std::size_t colon = target.text.find(':');
-        if (colon == std::string::npos) {
-            refuse(option, text, expected);
+        const std::size_t colon = std::min(target.text.find(':'), target.text.size());
+        const std::optional<double> low = finite_number(target.text.substr(0, colon));
+        const std::optional<double> high = finite_number(target.text.substr(std::min(colon + 1, target.text.size())));
+        if (!low || !high || !(*low < *high)) {
+            refuse_option(option, text, expected);
         }
-        const double low = number(option, text, target.text.substr(0, colon), expected);
-        const double high = number(option, text, target.text.substr(colon + 1), expected);
-        if (!(low < high)) {
-            refuse(option, text, expected);
-        }
-        for (const Eigen::Index j : target.joints) {
-            limits.lower[j] = low;
-            limits.upper[j] = high;
+        for (const std::size_t j : target.places) {
+            limits.lower[static_cast<Eigen::Index>(j)] = *low;
+            limits.upper[static_cast<Eigen::Index>(j)] = *high;
         }
     }
 }
@@ -134,10 +99,7 @@ void require_room(const motion_limits& limits, const generator::robot_descriptio
 
 void require_plain_model(const idim_model_interface& model, const generator::kinematic_tree& tree,
                          const std::string& file) {
-    const bool is_elastic = std::any_of(tree.driven.begin(), tree.driven.end(), [&, j = 0](int) mutable {
-        return model.joint_stiffness != nullptr && model.joint_stiffness[j++] != 0.0;
-    });
-    if (model.n_states > 0 || is_elastic || model.needs_rigid_torque != 0) {
+    if (model.n_states > 0 || has_soft_joint(model) || model.needs_rigid_torque != 0) {
         throw input_error({file, 0, "effects"},
                           "their regressor depends on more than the motion of the joints, expected none with states, "
                           "elasticity or friction by load: excite the robot without them");

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <optional>
 
 #include "idim/input_error.hpp"
+#include "option_text.hpp"
 
 namespace idim::cli {
 
@@ -17,12 +16,9 @@ std::optional<double> seconds_of(const std::string& text) {
     if (text == "auto") {
         return std::nullopt;
     }
-    double value = NAN;
-    const char* const last = text.data() + text.size();
-    const auto [end, error] = std::from_chars(text.data(), last, value);
-    if (error != std::errc{} || end != last || !(std::isfinite(value) && value > 0.0)) {
-        throw input_error({"", 0, "--period"},
-                          fmt::format("'{}', expected auto or a positive number of seconds", text));
+    const std::optional<double> value = finite_number(text);
+    if (!value || !(*value > 0.0)) {
+        refuse_option("--period", text, "auto or a positive number of seconds");
     }
     return value;
 }

@@ -15,10 +15,6 @@ double delay_of(const idim_model_interface& model, int joint) {
     return model.torque_delay == nullptr ? 0.0 : model.torque_delay[joint];
 }
 
-double stiffness_of(const idim_model_interface& model, int joint) {
-    return model.joint_stiffness == nullptr ? 0.0 : model.joint_stiffness[joint];
-}
-
 /// Whether the model reads anything but motion, time and temperatures.
 bool needs_completion(const idim_model_interface& model) {
     return model.n_states > 0 || model.needs_rigid_torque != 0 || has_soft_joint(model);
@@ -161,6 +157,10 @@ void run_states(const idim_model_interface& model, const filtered_samples& sampl
 }
 
 }  // namespace
+
+double stiffness_of(const idim_model_interface& model, int joint) {
+    return model.joint_stiffness == nullptr ? 0.0 : model.joint_stiffness[joint];
+}
 
 bool has_soft_joint(const idim_model_interface& model) {
     bool soft = false;

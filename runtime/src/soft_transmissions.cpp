@@ -4,12 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "idim/recorded_states.hpp"
+
 namespace idim {
 
 soft_transmissions::soft_transmissions(const idim_model_interface& model, const Eigen::VectorXd& chi)
     : model_(model), chi_(chi) {
-    for (int j = 0; model.joint_stiffness != nullptr && j < model.dof; ++j) {
-        if (model.joint_stiffness[j] > 0.0) {
+    for (int j = 0; j < model.dof; ++j) {
+        if (stiffness_of(model, j) > 0.0) {
             joints_.push_back(j);
         }
     }
@@ -31,7 +33,7 @@ Eigen::VectorXd soft_transmissions::residual(const instant& at, const Eigen::Vec
     model_.rigid_torque(at.link, at.link_speed.data(), acceleration.data(), at.t, chi_.data(), of_links.data());
     for (Eigen::Index k = 0; k < count(); ++k) {
         const int j = joints_[static_cast<std::size_t>(k)];
-        result[n + k] = of_links[j] - model_.joint_stiffness[j] * (at.motor[j] - at.link[j]);
+        result[n + k] = of_links[j] - stiffness_of(model_, j) * (at.motor[j] - at.link[j]);
     }
     return result;
 }
@@ -70,7 +72,7 @@ Eigen::VectorXd soft_transmissions::links_at_rest(const Eigen::VectorXd& motor, 
     for (int i = 0; i < most && count() > 0; ++i) {
         model_.rigid_torque(link.data(), none.data(), none.data(), t, chi_.data(), torque.data());
         for (const int j : joints_) {
-            link[j] = motor[j] - torque[j] / model_.joint_stiffness[j];
+            link[j] = motor[j] - torque[j] / stiffness_of(model_, j);
         }
     }
     return link;
@@ -90,7 +92,7 @@ double soft_transmissions::fastest_swing(const Eigen::VectorXd& q) const {
     for (Eigen::Index k = 0; k < count(); ++k) {
         const int j = joints_[static_cast<std::size_t>(k)];
         // A torque K (motor - link) more between the two: on the link alone, for the motor's equation has the sum.
-        square += model_.joint_stiffness[j] * std::abs(compliance(j, n + k) - compliance(n + k, n + k));
+        square += stiffness_of(model_, j) * std::abs(compliance(j, n + k) - compliance(n + k, n + k));
     }
     return std::isfinite(square) ? std::sqrt(square) : std::numeric_limits<double>::infinity();
 }

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "support/command.hpp"
+#include "support/rail_robot.hpp"
 #include "support/shared_data.hpp"
 
 namespace idim::test {
@@ -19,12 +20,7 @@ class ConsistencyCommand : public ::testing::Test {
   protected:
     /// One mass of 5 kg on a rail at 200 Hz: tau = 5 qdd + 2 qd - 0.2 sign(qd), a friction that cannot be.
     void SetUp() override {
-        robot_ = folder_.write("rail.yaml",
-                               "name: rail\n"
-                               "gravity: [0, 0, 0]\n"
-                               "joints:\n"
-                               "  - {name: slide, type: prismatic, r: q}\n"
-                               "effects: [viscous_friction, coulomb_friction]\n");
+        robot_ = folder_.write("rail.yaml", rail_text("viscous_friction, coulomb_friction"));
         std::string text = "t,q1,tau1\n";
         for (int k = 0; k < 4000; ++k) {
             const double t = k / 200.0;

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "support/command.hpp"
+#include "support/rail_robot.hpp"
 
 namespace idim::test {
 
@@ -36,14 +37,7 @@ std::string rail_log(int rows, const std::function<void(int, std::vector<std::st
 
 class IdentifyCommand : public ::testing::Test {
   protected:
-    void SetUp() override {
-        robot_ = folder_.write("rail.yaml",
-                               "name: rail\n"
-                               "gravity: [0, 0, 0]\n"
-                               "joints:\n"
-                               "  - {name: slide, type: prismatic, r: q}\n"
-                               "effects: [viscous_friction, coulomb_friction]\n");
-    }
+    void SetUp() override { robot_ = folder_.write("rail.yaml", rail_text("viscous_friction, coulomb_friction")); }
     /// The one line of a refused log; no result is left behind.
     std::string refusal(const std::string& log, int status = 2) {
         const std::string file = folder_.write("log.csv", log);

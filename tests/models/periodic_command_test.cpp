@@ -9,6 +9,7 @@
 #include <random>
 
 #include "support/command.hpp"
+#include "support/rail_robot.hpp"
 
 namespace idim::test {
 
@@ -20,12 +21,7 @@ using json = nlohmann::json;
 class PeriodicCommand : public ::testing::Test {
   protected:
     void SetUp() override {
-        robot_ = folder_.write("rail.yaml",
-                               "name: rail\n"
-                               "gravity: [0, 0, 0]\n"
-                               "joints:\n"
-                               "  - {name: slide, type: prismatic, r: q}\n"
-                               "effects: [viscous_friction]\n");
+        robot_ = folder_.write("rail.yaml", rail_text("viscous_friction"));
         log_ = folder_.write("log.csv", rail_log(6.0, 1));
         result_ = (folder_.path() / "result.json").string();
     }

@@ -12,6 +12,9 @@ namespace idim {
 /// they are those of an estimate.
 bool depends_on_parameters(const idim_model_interface& model);
 
+/// Of the transmission of a joint [N*m/rad or N/m]; 0 where it is rigid.
+double stiffness_of(const idim_model_interface& model, int joint);
+
 /// Whether a transmission is not rigid.
 bool has_soft_joint(const idim_model_interface& model);
 
