@@ -48,14 +48,12 @@ interval interval_of(const std::string& option, const std::string& text) {
     return range;
 }
 
-/// What the links are addressed by: the names of their joints.
-std::vector<std::string> names_of(const physical_parameters& known) {
-    const std::string before = "link of ";
+addressed address_links(const std::string& option, const std::string& text, const physical_parameters& known) {
     std::vector<std::string> names;
     for (const inertial_body& body : known.bodies) {
-        names.push_back(body.name.rfind(before, 0) == 0 ? body.name.substr(before.size()) : body.name);
+        names.push_back(body.name);
     }
-    return names;
+    return address(option, text, names, "link of ");
 }
 
 /// A map of standard parameters, a result of cwls, or the a-priori parameters of a robot description.
@@ -145,13 +143,13 @@ consistency_request request_of(const consistency_options& options, const loaded_
         options.objective == "weighted" ? consistency_objective::weighted : consistency_objective::normal;
     request.bodies.resize(known.bodies.size());
     for (const std::string& text : options.mass_bounds) {
-        const addressed at = address("--mass-bounds", text, names_of(known));
+        const addressed at = address_links("--mass-bounds", text, known);
         for (const std::size_t body : at.places) {
             request.bodies[body].mass = interval_of("--mass-bounds", at.text);
         }
     }
     for (const std::string& text : options.com_boxes) {
-        const addressed at = address("--com-box", text, names_of(known));
+        const addressed at = address_links("--com-box", text, known);
         const std::vector<std::string> axes = split(at.text, ',');
         if (axes.size() != 3) {
             refuse_option("--com-box", text, "three intervals, for x, y and z");

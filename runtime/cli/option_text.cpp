@@ -19,12 +19,13 @@ std::optional<double> finite_number(const std::string& text) {
     return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-addressed address(const std::string& option, const std::string& text, const std::vector<std::string>& names) {
+addressed address(const std::string& option, const std::string& text, const std::vector<std::string>& names,
+                  const std::string& before) {
     addressed result;
     const std::size_t equals = text.find('=');
     result.text = equals == std::string::npos ? text : text.substr(equals + 1);
     for (std::size_t i = 0; i < names.size(); ++i) {
-        if (equals == std::string::npos || names[i] == text.substr(0, equals)) {
+        if (equals == std::string::npos || names[i] == before + text.substr(0, equals)) {
             result.places.push_back(i);
         }
     }

@@ -18,7 +18,8 @@ struct addressed {
     std::string text;
 };
 
-/// Throws input_error with all names where none is meant.
-addressed address(const std::string& option, const std::string& text, const std::vector<std::string>& names);
+/// `before` stands in front of every name and is not written. Throws input_error with all names where none is meant.
+addressed address(const std::string& option, const std::string& text, const std::vector<std::string>& names,
+                  const std::string& before = "");
 
 }  // namespace idim::cli
