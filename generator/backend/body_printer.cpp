@@ -11,8 +11,6 @@ namespace idim::generator {
 
 namespace {
 
-constexpr std::size_t line_width = 116;
-
 /// How tightly the printed text binds.
 enum class binding { sum, product, atom };
 

@@ -11,8 +11,6 @@ namespace idim::generator {
 
 namespace {
 
-constexpr std::size_t line_width = 116;
-
 class c_language : public language {
   public:
     explicit c_language(bool single) : single_(single) {}

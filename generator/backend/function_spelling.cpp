@@ -12,9 +12,9 @@ namespace idim::generator {
 
 namespace {
 
-using arguments = std::vector<function_argument>;
+using argument_list = std::vector<function_argument>;
 
-std::vector<std::string> meanings_of(const arguments& list) {
+std::vector<std::string> meanings_of(const argument_list& list) {
     std::vector<std::string> meanings;
     for (const function_argument& argument : list) {
         meanings.push_back(argument.meaning);
@@ -45,7 +45,7 @@ std::set<std::string> arrays_read(const expression_graph& graph) {
     return names;
 }
 
-arguments marked_unused(arguments list, const expression_graph& graph) {
+argument_list marked_unused(argument_list list, const expression_graph& graph) {
     const std::set<std::string> read = arrays_read(graph);
     for (function_argument& argument : list) {
         argument.used = argument.is_output || read.count(argument.name) != 0;
@@ -113,8 +113,8 @@ class speller {
 
   private:
     template <class Routines>
-    static function_context described(const model_function& model, const arguments& list, const languages& spellings,
-                                      const Routines& routines) {
+    static function_context described(const model_function& model, const argument_list& list,
+                                      const languages& spellings, const Routines& routines) {
         function_context result{model.name, model.summary, meanings_of(list), count_operations(model.graph), {}};
         const bool calls_sign = functions_called(model.graph).count(function_kind::sign) != 0;
         for (const auto& spelling : spellings) {
@@ -127,14 +127,14 @@ class speller {
         return {"sc", sines_.size(), fmt::format("sc [{}] cosines and sines, as sines gives them", sines_.size())};
     }
 
-    arguments with_sines(arguments list) const {
+    argument_list with_sines(argument_list list) const {
         const auto q = std::find_if(list.begin(), list.end(), [](const auto& a) { return a.name == "q"; });
         list.insert(std::next(q), sines_argument());
         return list;
     }
 
     routine_context routine(const model_function& model, const language& spelling) const {
-        const arguments marked = marked_unused(model.arguments, model.graph);
+        const argument_list marked = marked_unused(model.arguments, model.graph);
         return {model.summary, meanings_of(marked), spelling.signature(names_.robot, model.name, marked),
                 spelling.prologue(functions_called(model.graph), marked),
                 print_body(model.graph, spelling, reserved_, names_)};

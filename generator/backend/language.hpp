@@ -9,6 +9,8 @@
 
 namespace idim::generator {
 
+inline constexpr std::size_t line_width = 116;  ///< of generated text
+
 /// One argument of a generated function, before it is spelled.
 struct function_argument {
     std::string name;     ///< "q"

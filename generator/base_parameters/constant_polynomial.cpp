@@ -12,7 +12,7 @@ rational power(const rational& base, int exponent) {
     return cln::expt(base, exponent);
 }
 
-monomial product(const monomial& a, const monomial& b) {
+monomial product_of(const monomial& a, const monomial& b) {
     std::map<std::size_t, int> exponents(a.begin(), a.end());
     for (const auto& [constant, exponent] : b) {
         exponents[constant] += exponent;
@@ -54,7 +54,7 @@ constant_polynomial operator*(const constant_polynomial& a, const constant_polyn
     constant_polynomial result;
     for (const auto& [m, coefficient] : a.terms) {
         for (const auto& [other, factor] : b.terms) {
-            result.add(coefficient * factor, product(m, other));
+            result.add(coefficient * factor, product_of(m, other));
         }
     }
     return result;

@@ -28,7 +28,7 @@ decimal_matrix symmetric_of(const double* m) {
     return matrix;
 }
 
-rigid_pose pose_of(const link_placement& placement) {
+rigid_pose pose_of_link(const link_placement& placement) {
     rigid_pose pose;
     for (int i = 0; i < 3; ++i) {
         pose.R.row(i) = vector_of(placement.rotation[static_cast<std::size_t>(i)].data()).transpose();
@@ -61,7 +61,7 @@ std::array<double, 6> upper_triangle(const decimal_matrix& m) {
 
 inertial_parameters parameters_of(const urdf_inertial& inertial, const link_placement& placement) {
     const body central = {decimal_of(inertial.mass), decimal_vector::Zero(), symmetric_of(inertial.inertia.data())};
-    const body in_ours = seen_from(central, pose_of(placement) * pose_of(inertial.xyz, inertial.rpy));
+    const body in_ours = seen_from(central, pose_of_link(placement) * pose_of(inertial.xyz, inertial.rpy));
     const std::array<double, 6> I = upper_triangle(in_ours.inertia);
     return {I[0],
             I[1],
@@ -80,7 +80,7 @@ urdf_inertial inertial_of(const inertial_parameters& parameters, const link_plac
     if (in_ours.mass == 0 && in_ours.moments != decimal_vector::Zero()) {
         throw std::invalid_argument("first moments without a mass, expected a mass other than zero");
     }
-    const body in_link = seen_from(in_ours, pose_of(placement).inverse());
+    const body in_link = seen_from(in_ours, pose_of_link(placement).inverse());
     urdf_inertial inertial;
     inertial.mass = parameters[9];
     inertial.rpy = placement.rpy;

@@ -10,8 +10,6 @@ namespace idim::generator {
 
 namespace {
 
-constexpr int base = -1;
-
 expression_text read_expression(const yaml_value& value) {
     return {value.expression(), value.where()};
 }
@@ -161,7 +159,7 @@ std::vector<int> antecedent_rows(const std::vector<written_joint>& rows) {
         if (row.antecedent.empty()) {
             antecedents.push_back(static_cast<int>(antecedents.size()) - 1);
         } else if (row.antecedent == "base") {
-            antecedents.push_back(base);
+            antecedents.push_back(base_link);
         } else if (const auto found = index.find(row.antecedent); found != index.end()) {
             antecedents.push_back(found->second);
         } else {
@@ -197,7 +195,7 @@ std::vector<int> order_from_base(const std::vector<written_joint>& rows, const s
     std::vector<bool> placed(rows.size(), false);
     while (static_cast<int>(order.size()) < count) {
         int next = 0;
-        while (next < count && (placed[next] || (antecedents[next] != base && !placed[antecedents[next]]))) {
+        while (next < count && (placed[next] || (antecedents[next] != base_link && !placed[antecedents[next]]))) {
             ++next;
         }
         if (next == count) {
@@ -217,11 +215,11 @@ ordered_joints read_joints(const yaml_value& written) {
     const std::vector<int> antecedents = antecedent_rows(rows);
     ordered_joints result;
     result.written_row = order_from_base(rows, antecedents);
-    std::vector<int> place(rows.size(), base);
+    std::vector<int> place(rows.size(), base_link);
     for (const int row : result.written_row) {
         place[row] = static_cast<int>(result.joints.size());
         result.joints.push_back(rows[row].joint);
-        result.joints.back().antecedent = antecedents[row] == base ? base : place[antecedents[row]];
+        result.joints.back().antecedent = antecedents[row] == base_link ? base_link : place[antecedents[row]];
     }
     return result;
 }

@@ -27,6 +27,8 @@ inline constexpr std::string_view header_ending = ".hpp";
 
 enum class joint_type { revolute, prismatic, fixed };
 
+inline constexpr int base_link = -1;  ///< antecedent of a joint that stands on the base
+
 struct joint_limits {
     std::optional<std::pair<double, double>> position;  ///< [rad or m]
     std::optional<double> velocity;                     ///< [rad/s or m/s]
@@ -40,7 +42,7 @@ struct joint_limits {
 struct joint_description {
     std::string name;
     joint_type type = joint_type::revolute;
-    int antecedent = -1;  ///< index in robot_description::joints, always smaller than the joint's own; -1 is the base
+    int antecedent = base_link;  ///< index in robot_description::joints, always smaller than the joint's own
     expression_text gamma, b, alpha, d, theta, r;
     bool massless = false;  ///< its link has no inertia: no inertial parameters
     bool passive = false;   ///< a loop determines its variable, which is written `q`

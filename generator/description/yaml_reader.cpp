@@ -26,10 +26,10 @@ struct yaml_node {
 
 namespace {
 
-constexpr std::size_t largest_file = 1'000'000;
+constexpr std::size_t largest_description = 1'000'000;
 constexpr std::size_t deepest_level = 20;
 constexpr std::size_t longest_quote = 40;
-constexpr std::size_t longest_expression = 4096;
+constexpr std::size_t longest_text = 4096;
 
 bool is_control(char c) {
     return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
@@ -193,8 +193,8 @@ std::string yaml_value::expression() const {
     if (number && !std::isfinite(*number)) {
         reject("a finite number or an expression");
     }
-    if (result.size() > longest_expression) {
-        reject("an expression of at most " + std::to_string(longest_expression) + " characters");
+    if (result.size() > longest_text) {
+        reject("an expression of at most " + std::to_string(longest_text) + " characters");
     }
     return result;
 }
@@ -297,7 +297,7 @@ yaml_value yaml_fields::require(std::string_view key, std::string_view expected)
 }
 
 yaml_value read_yaml(const std::string& file) {
-    const std::string text = read_text_file(file, largest_file);
+    const std::string text = read_text_file(file, largest_description);
     std::istringstream stream(text);
     node_builder builder(file);
     try {

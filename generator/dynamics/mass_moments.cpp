@@ -6,7 +6,7 @@ namespace {
 
 using GiNaC::ex;
 
-symmetric3 add(symbolic_model& model, const std::string& name, const symmetric3& a, const symmetric3& b) {
+symmetric3 sum_of(symbolic_model& model, const std::string& name, const symmetric3& a, const symmetric3& b) {
     return {model.assign(name + "_xx", a.xx + b.xx), model.assign(name + "_xy", a.xy + b.xy),
             model.assign(name + "_xz", a.xz + b.xz), model.assign(name + "_yy", a.yy + b.yy),
             model.assign(name + "_yz", a.yz + b.yz), model.assign(name + "_zz", a.zz + b.zz)};
@@ -52,7 +52,7 @@ mass_moments moments_of_link(symbolic_model& model, const parameter_values& valu
 }
 
 mass_moments add(symbolic_model& model, const std::string& name, const mass_moments& a, const mass_moments& b) {
-    return {add(model, "K" + name, a.K, b.K), model.assign("S" + name, add(a.S, b.S)),
+    return {sum_of(model, "K" + name, a.K, b.K), model.assign("S" + name, add(a.S, b.S)),
             model.assign("M" + name, a.M + b.M),
             a.J_zz && b.J_zz ? std::optional(model.assign("J" + name + "_zz", *a.J_zz + *b.J_zz)) : std::nullopt};
 }
@@ -78,7 +78,7 @@ mass_moments joint_to_antecedent(symbolic_model& model, const std::string& name,
     if (m.J_zz && frame.keeps_z()) {
         J_zz = model.assign("J" + name + "_zz_moved", *m.J_zz + by_moving.xx + by_moving.yy);
     }
-    return {add(model, "K" + name + "_moved", K, by_moving), moved, m.M, J_zz};
+    return {sum_of(model, "K" + name + "_moved", K, by_moving), moved, m.M, J_zz};
 }
 
 mass_moments on_axis(const mass_moments& m) {

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t largest_file = 64U << 20U;
+constexpr std::uintmax_t largest_generated_file = 64U << 20U;
 
 /// Nothing where there is no regular file: a pipe of that name would never end.
 std::optional<std::string> read_file(const fs::path& path) {
@@ -126,7 +126,7 @@ model_folder read_model(const std::string& folder) {
         }
         const fs::path path = fs::path(folder) / name;
         std::error_code error;
-        if (fs::is_regular_file(path, error) && fs::file_size(path, error) > largest_file) {
+        if (fs::is_regular_file(path, error) && fs::file_size(path, error) > largest_generated_file) {
             throw input_error({path.string(), 0, ""}, "more than 64 MiB: no generated file");
         }
         const auto content = read_file(path);

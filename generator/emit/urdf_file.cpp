@@ -14,7 +14,6 @@ namespace idim::generator {
 
 namespace {
 
-constexpr xml_limits limits = {32, 100'000, 64, "link", 2000};
 constexpr double unlimited = 1e9;  // of speed and effort, which a URDF must give where there are limits of position
 
 using parameter_values_by_name = std::map<std::string, double>;
@@ -37,7 +36,7 @@ std::optional<inertial_parameters> inertia_of(const parameter_values_by_name& pa
     return values;
 }
 
-std::string number(double value) {
+std::string decimal_text(double value) {
     return fmt::format("{}", value + 0.0);  // no negative zero
 }
 
@@ -48,7 +47,7 @@ xml_element element(const std::string& name, std::vector<std::pair<std::string, 
 
 xml_element origin(const std::array<double, 3>& xyz, const std::array<double, 3>& rpy) {
     const auto three = [](const std::array<double, 3>& v) {
-        return number(v[0]) + " " + number(v[1]) + " " + number(v[2]);
+        return decimal_text(v[0]) + " " + decimal_text(v[1]) + " " + decimal_text(v[2]);
     };
     return element("origin", {{"xyz", three(xyz)}, {"rpy", three(rpy)}});
 }
@@ -56,13 +55,13 @@ xml_element origin(const std::array<double, 3>& xyz, const std::array<double, 3>
 xml_element inertial_element(const urdf_inertial& inertial) {
     const auto& I = inertial.inertia;
     return element("inertial", {},
-                   {origin(inertial.xyz, inertial.rpy), element("mass", {{"value", number(inertial.mass)}}),
-                    element("inertia", {{"ixx", number(I[0])},
-                                        {"ixy", number(I[1])},
-                                        {"ixz", number(I[2])},
-                                        {"iyy", number(I[3])},
-                                        {"iyz", number(I[4])},
-                                        {"izz", number(I[5])}})});
+                   {origin(inertial.xyz, inertial.rpy), element("mass", {{"value", decimal_text(inertial.mass)}}),
+                    element("inertia", {{"ixx", decimal_text(I[0])},
+                                        {"ixy", decimal_text(I[1])},
+                                        {"ixz", decimal_text(I[2])},
+                                        {"iyy", decimal_text(I[3])},
+                                        {"iyz", decimal_text(I[4])},
+                                        {"izz", decimal_text(I[5])}})});
 }
 
 /// Indented text.
@@ -95,10 +94,10 @@ void put(xml_element& parent, xml_element child) {
 void put_dynamics(xml_element& joint, const parameter_values_by_name& parameters, const std::string& label) {
     xml_element dynamics = element("dynamics", {});
     if (const auto viscous = value_of(parameters, "Fv" + label)) {
-        dynamics.attributes.emplace_back("damping", number(*viscous));
+        dynamics.attributes.emplace_back("damping", decimal_text(*viscous));
     }
     if (const auto coulomb = value_of(parameters, "Fc" + label)) {
-        dynamics.attributes.emplace_back("friction", number(*coulomb));
+        dynamics.attributes.emplace_back("friction", decimal_text(*coulomb));
     }
     if (!dynamics.attributes.empty()) {
         put(joint, dynamics);
@@ -185,10 +184,10 @@ xml_element joint_element(const robot_description& robot, const kinematic_tree& 
     result.children.push_back(element("axis", {{"xyz", rate > 0.0 ? "0 0 1" : "0 0 -1"}}));
     if (range || !revolute) {
         result.children.push_back(
-            element("limit", {{"lower", number(range ? range->first : -unlimited)},
-                              {"upper", number(range ? range->second : unlimited)},
-                              {"effort", number(written.limits.effort.value_or(unlimited))},
-                              {"velocity", number(written.limits.velocity.value_or(unlimited))}}));
+            element("limit", {{"lower", decimal_text(range ? range->first : -unlimited)},
+                              {"upper", decimal_text(range ? range->second : unlimited)},
+                              {"effort", decimal_text(written.limits.effort.value_or(unlimited))},
+                              {"velocity", decimal_text(written.limits.velocity.value_or(unlimited))}}));
     }
     put_dynamics(result, parameters, joint.label);
     return result;
@@ -212,7 +211,7 @@ std::optional<xml_element> inertial_of_link(const parameter_values_by_name& para
 
 urdf_file with_parameters(const std::string& text, const std::string& file, const robot_description& robot,
                           const std::map<std::string, double>& parameters) {
-    xml_element root = read_xml(text, file, limits);
+    xml_element root = read_xml(text, file, urdf_limits);
     for (std::size_t j = 0; j < robot.joints.size(); ++j) {
         const std::string label = parameter_label(robot.joints, static_cast<int>(j));
         const std::string& link = robot.links[j].link;

@@ -30,7 +30,7 @@ bool is_identifier_start(char c) {
 bool is_identifier_part(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
-bool is_digit(char c) {
+bool is_decimal(char c) {
     return std::isdigit(static_cast<unsigned char>(c)) != 0;
 }
 
@@ -99,7 +99,7 @@ class tokeniser {
         const char c = source_.text[at_];
         if (is_identifier_start(c)) {
             identifier();
-        } else if (is_digit(c) || c == '.') {
+        } else if (is_decimal(c) || c == '.') {
             number();
         } else if (std::string_view("+-*/^() ").find(c) != std::string_view::npos) {
             depth_ += c == '(' ? 1 : c == ')' ? -1 : 0;
@@ -146,15 +146,15 @@ class tokeniser {
     void number() {
         const std::size_t start = at_;
         const std::string& text = source_.text;
-        while (at_ < text.size() && (is_digit(text[at_]) || text[at_] == '.')) {
+        while (at_ < text.size() && (is_decimal(text[at_]) || text[at_] == '.')) {
             ++at_;
         }
         if (at_ + 1 < text.size() && (text[at_] == 'e' || text[at_] == 'E')) {
             std::size_t digit = at_ + 1;
             digit += text[digit] == '+' || text[digit] == '-' ? 1 : 0;
-            if (digit < text.size() && is_digit(text[digit])) {
+            if (digit < text.size() && is_decimal(text[digit])) {
                 at_ = digit;
-                while (at_ < text.size() && is_digit(text[at_])) {
+                while (at_ < text.size() && is_decimal(text[at_])) {
                     ++at_;
                 }
             }

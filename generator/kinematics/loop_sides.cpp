@@ -13,7 +13,7 @@ using GiNaC::ex;
 using vector = std::array<ex, 3>;
 using rotation = std::array<vector, 3>;  ///< rows
 
-constexpr double tolerance = 1e-9;  ///< of a direction and, in metres, of a length
+constexpr double direction_tolerance = 1e-9;  ///< of a direction and, in metres, of a length
 
 rotation identity() {
     return {vector{1, 0, 0}, vector{0, 1, 0}, vector{0, 0, 1}};
@@ -35,7 +35,7 @@ rotation transposed(const rotation& m) {
     return result;
 }
 
-vector product(const rotation& m, const vector& v) {
+vector applied(const rotation& m, const vector& v) {
     vector result;
     for (std::size_t i = 0; i < 3; ++i) {
         result[i] = (m[i][0] * v[0] + m[i][1] * v[1] + m[i][2] * v[2]).expand();
@@ -43,9 +43,9 @@ vector product(const rotation& m, const vector& v) {
     return result;
 }
 
-rotation product(const rotation& a, const rotation& b) {
+rotation composed(const rotation& a, const rotation& b) {
     const rotation columns = transposed(b);
-    return transposed({product(a, columns[0]), product(a, columns[1]), product(a, columns[2])});
+    return transposed({applied(a, columns[0]), applied(a, columns[1]), applied(a, columns[2])});
 }
 
 bool turns(const kinematic_joint& joint) {
@@ -68,7 +68,7 @@ class side_walk {
 
   private:
     void move(const vector& by) {
-        const vector moved = product(axes_, by);
+        const vector moved = applied(axes_, by);
         side_.segments.back().add({angle_, {moved[0], moved[1]}});
         side_.height += moved[2];
     }
@@ -76,9 +76,9 @@ class side_walk {
     void step(int index) {
         const kinematic_joint& joint = tree_.joints[static_cast<std::size_t>(index)];
         move(joint.position());
-        axes_ = product(axes_, product(about_z(joint.gamma), about_x(joint.alpha)));
+        axes_ = composed(axes_, composed(about_z(joint.gamma), about_x(joint.alpha)));
         if (!turns(joint)) {
-            axes_ = product(axes_, about_z(joint.theta));
+            axes_ = composed(axes_, about_z(joint.theta));
             return;
         }
         const int sense = align(joint);
@@ -99,7 +99,7 @@ class side_walk {
         const angle_pair moving = {GiNaC::cos(joint.angle), GiNaC::sin(joint.angle)};
         for (int quarters = 0; quarters < 4; ++quarters) {
             if (turned(moving, quarters).cos.is_equal(joint.theta.cos)) {
-                axes_ = product(axes_, about_z(turned({}, quarters)));
+                axes_ = composed(axes_, about_z(turned({}, quarters)));
                 return;
             }
         }
@@ -108,7 +108,7 @@ class side_walk {
     /// The axis has to be the plane's normal, or its opposite; from there on it is so exactly.
     int align(const kinematic_joint& joint) {
         const double z = number_of(axes_[2][2], values_);
-        if (std::abs(std::abs(z) - 1.0) > tolerance) {
+        if (std::abs(std::abs(z) - 1.0) > direction_tolerance) {
             throw input_error(loop_.where, fmt::format("the axis of joint {} is not parallel to that of {}, expected "
                                                        "links that move in one plane",
                                                        joint.name, name_of_first()));
@@ -153,11 +153,11 @@ rotation plane_axes(const std::vector<int>& way, const kinematic_tree& tree) {
     rotation axes = identity();
     for (const int j : way) {
         const kinematic_joint& joint = tree.joints[static_cast<std::size_t>(j)];
-        axes = product(axes, product(about_z(joint.gamma), about_x(joint.alpha)));
+        axes = composed(axes, composed(about_z(joint.gamma), about_x(joint.alpha)));
         if (turns(joint)) {
             break;
         }
-        axes = product(axes, about_z(joint.theta));
+        axes = composed(axes, about_z(joint.theta));
     }
     return axes;
 }
@@ -166,14 +166,14 @@ void check_heights(const planar_loop& loop, const kinematic_tree& tree, const ex
     GiNaC::exmap zero;
     for (const GiNaC::symbol& q : tree.q) {
         zero[q] = 0;
-        if (std::abs(number_of(gap.diff(q), values)) > tolerance) {
+        if (std::abs(number_of(gap.diff(q), values)) > direction_tolerance) {
             throw input_error(loop.cut_where,
                               fmt::format("coordinate {} moves the two points of the cut out of the plane of the links",
                                           q.get_name()));
         }
     }
     const double height = number_of(gap.subs(zero), values);
-    if (std::abs(height) > tolerance) {
+    if (std::abs(height) > direction_tolerance) {
         throw input_error(loop.cut_where,
                           fmt::format("the two points of the cut are {:.6g} m apart along the axis of joint {}, "
                                       "expected points in one plane across it",

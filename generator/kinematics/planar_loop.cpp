@@ -15,7 +15,7 @@ namespace {
 
 using GiNaC::ex;
 
-constexpr double tolerance = 1e-9;  ///< of the ratio of two sides
+constexpr double ratio_tolerance = 1e-9;  ///< of the ratio of two sides
 
 /// The turning of one side of the triangle, about the plane's normal.
 struct bar {
@@ -112,7 +112,7 @@ class loop_closer {
     double length(const plane_pair& constant) const { return std::sqrt(number_of(dot(constant, constant), values_)); }
 
     bool are_equal(const plane_pair& a, const plane_pair& b) const {
-        return std::abs(length(a) - length(b)) <= tolerance * length(a);
+        return std::abs(length(a) - length(b)) <= ratio_tolerance * length(a);
     }
 
     /// The term of r that turns with the link before the first passive joint, as the second bar does.
@@ -182,7 +182,7 @@ class loop_closer {
         }
         // One of four quarter turns, or an angle of its own.
         const double quarters = std::arg(turned_by.further) * passive.sense / (M_PI / 2);
-        const bool is_quarter = std::abs(quarters - std::round(quarters)) < tolerance;
+        const bool is_quarter = std::abs(quarters - std::round(quarters)) < ratio_tolerance;
         const int turns = is_quarter ? (static_cast<int>(std::round(quarters)) + 4) % 4 : 0;
         const ex offset = is_quarter ? turns * GiNaC::Pi / 2 : passive.sense * turned_by.offset;
         moved.angle = is_quarter ? variable : variable + offset;
@@ -240,7 +240,7 @@ class loop_closer {
             }
             std::array<double, 3> sides = {r.at(q), w.at(q), v.at(q)};
             std::sort(sides.begin(), sides.end());
-            if (sides[2] < (1.0 - tolerance) * (sides[0] + sides[1])) {
+            if (sides[2] < (1.0 - ratio_tolerance) * (sides[0] + sides[1])) {
                 return;
             }
         }

@@ -13,7 +13,7 @@ struct base_options {
     std::string json_file;
 };
 
-json to_json(const generator::base_report& base) {
+json base_json(const generator::base_report& base) {
     json parameters = json::array();
     for (const auto& parameter : base.parameters) {
         parameters.push_back({{"name", parameter.name}, {"regroups", parameter.regroups}, {"unit", parameter.unit}});
@@ -71,7 +71,7 @@ void add_base_command(CLI::App& app, action& chosen) {
         chosen = [options]() -> int {
             const generator::base_report base = generator::find_base(options->robot, templates_folder());
             print_notes(options->robot, base.notes);
-            write_json(options->json_file, to_json(base));
+            write_json(options->json_file, base_json(base));
             if (prints_text(options->json_file)) {
                 print(base);
             }

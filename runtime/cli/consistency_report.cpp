@@ -7,7 +7,7 @@ namespace idim::cli {
 
 namespace {
 
-json to_json(const inertia_scan& scan) {
+json scan_json(const inertia_scan& scan) {
     return {{"smallest_eigenvalue", finite(scan.smallest)}, {"share_not_positive", scan.share_not_positive}};
 }
 
@@ -46,8 +46,8 @@ json to_json(const consistent_estimate& found, const loaded_robot& robot) {
             {"relative_error_of_wls", found.unconstrained.residual.relative_error},
             {"inertia_matrix",
              {{"configurations", found.inertia.configurations},
-              {"wls", to_json(found.unconstrained_inertia)},
-              {"cwls", to_json(found.inertia)}}}};
+              {"wls", scan_json(found.unconstrained_inertia)},
+              {"cwls", scan_json(found.inertia)}}}};
 }
 
 void print_consistency(const consistent_estimate& found) {

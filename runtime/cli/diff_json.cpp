@@ -11,19 +11,19 @@ using generator::entry_change;
 using generator::operation_count;
 using generator::parameter_context;
 
-json to_json(const parameter_context& parameter) {
+json json_of(const parameter_context& parameter) {
     return {{"name", parameter.name}, {"regroups", parameter.regroups}, {"unit", parameter.unit}};
 }
 
-json to_json(const std::vector<parameter_context>& parameters) {
+json json_of(const std::vector<parameter_context>& parameters) {
     json list = json::array();
     for (const parameter_context& parameter : parameters) {
-        list.push_back(to_json(parameter));
+        list.push_back(json_of(parameter));
     }
     return list;
 }
 
-json to_json(const std::vector<generator::regrouping_change>& changes) {
+json json_of(const std::vector<generator::regrouping_change>& changes) {
     json list = json::array();
     for (const generator::regrouping_change& change : changes) {
         json coefficients = json::array();
@@ -32,12 +32,12 @@ json to_json(const std::vector<generator::regrouping_change>& changes) {
                 {{"standard", coefficient.standard}, {"old", coefficient.before}, {"new", coefficient.after}});
         }
         list.push_back(
-            {{"old", to_json(change.before)}, {"new", to_json(change.after)}, {"coefficients", coefficients}});
+            {{"old", json_of(change.before)}, {"new", json_of(change.after)}, {"coefficients", coefficients}});
     }
     return list;
 }
 
-json to_json(const std::vector<entry_change>& changes, const char* what) {
+json json_of(const std::vector<entry_change>& changes, const char* what) {
     json list = json::array();
     for (const entry_change& change : changes) {
         json entry = {{what, change.what}};
@@ -51,7 +51,7 @@ json to_json(const std::vector<entry_change>& changes, const char* what) {
     return list;
 }
 
-json to_json(const std::vector<generator::manifest_effect>& effects) {
+json json_of(const std::vector<generator::manifest_effect>& effects) {
     json list = json::array();
     for (const generator::manifest_effect& effect : effects) {
         json entry = {{"effect", effect.effect}, {"joints", effect.joints}, {"torque", effect.torque}};
@@ -66,7 +66,7 @@ json to_json(const std::vector<generator::manifest_effect>& effects) {
     return list;
 }
 
-json to_json(const operation_count& count) {
+json json_of(const operation_count& count) {
     return {{"mul", count.mul}, {"add", count.add}, {"div", count.div}, {"functions", count.functions}};
 }
 
@@ -76,9 +76,9 @@ json operations_json(const std::vector<generator::operations_change>& changes) {
         const operation_count& old = change.before;
         const operation_count& now = change.after;
         functions[change.function] = {
-            {"old", to_json(old)},
-            {"new", to_json(now)},
-            {"difference", to_json(operation_count{now.mul - old.mul, now.add - old.add, now.div - old.div,
+            {"old", json_of(old)},
+            {"new", json_of(now)},
+            {"difference", json_of(operation_count{now.mul - old.mul, now.add - old.add, now.div - old.div,
                                                    now.functions - old.functions})}};
     }
     return functions;
@@ -103,7 +103,7 @@ json columns_json(const model_comparison& comparison) {
     return {{"old", names(comparison.before.summary)}, {"new", names(comparison.after.summary)}, {"moved", moved}};
 }
 
-json to_json(const torque_difference& largest, const model_comparison& comparison) {
+json json_of(const torque_difference& largest, const model_comparison& comparison) {
     const auto vector = [](const Eigen::VectorXd& values) {
         return json(std::vector<double>(values.data(), values.data() + values.size()));
     };
@@ -113,7 +113,7 @@ json to_json(const torque_difference& largest, const model_comparison& compariso
             {"new", largest.after}};
 }
 
-json to_json(const std::vector<one_sided_parameter>& parameters, const model_comparison& comparison) {
+json json_of(const std::vector<one_sided_parameter>& parameters, const model_comparison& comparison) {
     json list = json::array();
     for (const one_sided_parameter& parameter : parameters) {
         json joints = json::array();
@@ -134,10 +134,10 @@ json torque_json(const model_comparison& comparison) {
     return {{"verdict", verdicts[static_cast<int>(torques.verdict)]},
             {"states", torques.states},
             {"seed", torques.seed},
-            {"absolute", to_json(torques.absolute, comparison)},
-            {"relative", to_json(torques.relative, comparison)},
-            {"only_old", to_json(torques.only_before, comparison)},
-            {"only_new", to_json(torques.only_after, comparison)}};
+            {"absolute", json_of(torques.absolute, comparison)},
+            {"relative", json_of(torques.relative, comparison)},
+            {"only_old", json_of(torques.only_before, comparison)},
+            {"only_new", json_of(torques.only_after, comparison)}};
 }
 
 json origin_json(const compared_model& model) {
@@ -159,18 +159,18 @@ json to_json(const model_comparison& comparison) {
             {"same", comparison.same()},
             {"torque", torque_json(comparison)},
             {"base_parameters",
-             {{"added", to_json(difference.base_added)},
-              {"dropped", to_json(difference.base_dropped)},
-              {"regrouped", to_json(difference.regrouped)}}},
+             {{"added", json_of(difference.base_added)},
+              {"dropped", json_of(difference.base_dropped)},
+              {"regrouped", json_of(difference.regrouped)}}},
             {"standard_parameters", {{"added", difference.standard_added}, {"dropped", difference.standard_dropped}}},
             {"effects",
-             {{"added", to_json(difference.effects_added)},
-              {"removed", to_json(difference.effects_removed)},
-              {"changed", to_json(difference.effects_changed, "effect")}}},
-            {"constants", to_json(difference.constants, "constant")},
-            {"gravity", to_json(difference.gravity, "gravity")},
-            {"joints", to_json(difference.joints, "joint")},
-            {"loops", to_json(difference.loops, "loop")},
+             {{"added", json_of(difference.effects_added)},
+              {"removed", json_of(difference.effects_removed)},
+              {"changed", json_of(difference.effects_changed, "effect")}}},
+            {"constants", json_of(difference.constants, "constant")},
+            {"gravity", json_of(difference.gravity, "gravity")},
+            {"joints", json_of(difference.joints, "joint")},
+            {"loops", json_of(difference.loops, "loop")},
             {"regressor_columns", columns_json(comparison)},
             {"operations", operations_json(difference.operations)}};
 }

@@ -41,7 +41,7 @@ compared_form compare(const limited_robot& robot, const fourier_series& series) 
     return form;
 }
 
-json to_json(const excitation_quality& quality) {
+json quality_json(const excitation_quality& quality) {
     return {{"condition_number", finite(quality.condition_number)},
             {"scaled_condition_number", finite(quality.scaled_condition_number)},
             {"log_determinant", finite(quality.log_determinant)}};
@@ -50,7 +50,7 @@ json to_json(const excitation_quality& quality) {
 /// How many times better the motion is than a compared form.
 json gain(const excitation_quality& own, const compared_form& form) {
     json result = {{"period", form.period}, {"sinusoids", form.sinusoids}};
-    result.update(to_json(form.quality));
+    result.update(quality_json(form.quality));
     const auto b = static_cast<double>(own.inflation.size());
     result["gain"] = {
         {"condition_number", finite(form.quality.condition_number / own.condition_number)},
@@ -141,7 +141,7 @@ json to_json(const excitation_report& report, const limited_robot& robot, const 
                     {"duration", plan.duration()},
                     {"rate", plan.rate},
                     {"start", plan.start}};
-    content.update(to_json(report.quality));
+    content.update(quality_json(report.quality));
     content["nearest_limit"] = {{"limit", report.nearest.limit}, {"used", 1.0 + report.nearest.share}};
     if (report.form == "optimised") {
         content["criterion"] = report.criterion;

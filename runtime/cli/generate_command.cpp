@@ -18,7 +18,7 @@ struct generate_options {
     std::string json_file;
 };
 
-json to_json(const generator::operation_table& table) {
+json table_json(const generator::operation_table& table) {
     const auto count = [](const generator::operation_count& c) {
         return json{{"mul", c.mul}, {"add", c.add}, {"div", c.div}};
     };
@@ -28,13 +28,13 @@ json to_json(const generator::operation_table& table) {
             {"forward_dynamics", count(table.forward_dynamics)}};
 }
 
-json to_json(const generator::generated_model& model) {
+json model_json(const generator::generated_model& model) {
     json files = json::array();
     for (const generator::rendered_file& file : model.files) {
         files.push_back(file.name);
     }
-    json operations = to_json(model.operations);
-    operations["rigid"] = to_json(model.rigid_operations);
+    json operations = table_json(model.operations);
+    operations["rigid"] = table_json(model.rigid_operations);
     return {{"robot", model.robot},           {"target", model.target}, {"cost", model.cost},
             {"input_hash", model.input_hash}, {"files", files},         {"seconds", model.seconds},
             {"operations", operations}};
@@ -86,7 +86,7 @@ int run(const generate_options& options) {
         return check_folder(model, options);
     }
     const std::vector<std::string> changed = generator::write_model(model.files, options.folder);
-    write_json(options.json_file, to_json(model));
+    write_json(options.json_file, model_json(model));
     if (prints_text(options.json_file)) {
         print(model);
         fmt::print("{} files in {}, {} changed\n", model.files.size(), options.folder, changed.size());

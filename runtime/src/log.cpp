@@ -58,7 +58,7 @@ std::string list(const std::vector<std::string>& names) {
     return text;
 }
 
-std::string shortest(double value) {
+std::string shortest_text(double value) {
     char text[32];
     return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
@@ -228,8 +228,8 @@ void check_time(const log_line_reader& lines, const number_table& table) {
     const double before = table.values[last - table.width];
     const double now = table.values[last];
     if (!(now > before)) {
-        throw input_error({lines.file(), lines.line(), "t"},
-                          "time must increase strictly, but " + shortest(now) + " follows " + shortest(before));
+        throw input_error({lines.file(), lines.line(), "t"}, "time must increase strictly, but " + shortest_text(now) +
+                                                                 " follows " + shortest_text(before));
     }
 }
 
@@ -258,7 +258,7 @@ number_table read_rows(log_line_reader& lines, const log_header& header, const s
 }
 
 /// A signal of the log and the file columns it comes from.
-struct signal_source {
+struct named_signal {
     Eigen::MatrixXd log::*signal;
     std::vector<int> columns;
 };
@@ -286,10 +286,10 @@ void check_torque(const log_header& header, const log_columns& columns, const st
     }
 }
 
-std::vector<signal_source> find_signals(const log_header& header, const log_columns& columns, const std::string& file) {
+std::vector<named_signal> find_signals(const log_header& header, const log_columns& columns, const std::string& file) {
     const std::vector<int> reference = header.find("qr");
     const bool only_reference = !columns.torque_required && !reference.empty();
-    std::vector<signal_source> signals;
+    std::vector<named_signal> signals;
     signals.push_back({&log::q, only_reference ? header.find("q") : header.require("q")});
     check_torque(header, columns, file);
     signals.push_back({&log::tau, header.find("tau")});
@@ -314,9 +314,9 @@ log read_log(const std::string& file, const log_columns& columns) {
     const log_header header(file, line, columns);
     std::vector<int> slots(header.names().size(), not_there);
     slots[header.require_time()] = 0;
-    const std::vector<signal_source> signals = find_signals(header, columns, file);
+    const std::vector<named_signal> signals = find_signals(header, columns, file);
     size_t width = 1;
-    for (const signal_source& source : signals) {
+    for (const named_signal& source : signals) {
         for (const int column : source.columns) {
             slots[column] = static_cast<int>(width++);
         }
@@ -328,7 +328,7 @@ log read_log(const std::string& file, const log_columns& columns) {
     const row_major_table table(numbers.values.data(), numbers.rows(), static_cast<Eigen::Index>(width));
     data.t = table.col(0);
     Eigen::Index next = 1;
-    for (const signal_source& source : signals) {
+    for (const named_signal& source : signals) {
         const auto count = static_cast<Eigen::Index>(source.columns.size());
         if (count > 0) {
             data.*source.signal = table.middleCols(next, count);

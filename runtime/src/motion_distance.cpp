@@ -7,10 +7,10 @@ namespace idim {
 
 namespace {
 
-using signal = Eigen::MatrixXd filtered_samples::*;
+using sample_matrix = Eigen::MatrixXd filtered_samples::*;
 
-double distance(const std::vector<filtered_samples>& motion, const std::vector<filtered_samples>& from, signal which,
-                Eigen::Index joint, double start) {
+double distance(const std::vector<filtered_samples>& motion, const std::vector<filtered_samples>& from,
+                sample_matrix which, Eigen::Index joint, double start) {
     double difference = 0.0;
     double size = 0.0;
     for (std::size_t i = 0; i < motion.size(); ++i) {

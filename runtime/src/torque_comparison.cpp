@@ -4,8 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <random>
 #include <stdexcept>
+
+#include "uniform_numbers.hpp"
 
 namespace idim {
 
@@ -34,33 +35,19 @@ Eigen::VectorXd signals_of(const idim_model_interface& model, const motion_state
     return signals;
 }
 
-/// Uniform numbers that are the same with every standard library.
-class uniform_numbers {
-  public:
-    explicit uniform_numbers(std::uint64_t seed) : random_(seed) {}
-
-    double between(double low, double high) {
-        constexpr double unit = 0x1p-53;
-        return low + (high - low) * (static_cast<double>(random_() >> 11U) * unit);
+motion_state random_state(uniform_numbers& random, const std::vector<joint_range>& ranges) {
+    const auto n = static_cast<Eigen::Index>(ranges.size());
+    motion_state s{Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n), 0.0};
+    for (Eigen::Index j = 0; j < n; ++j) {
+        const joint_range& range = ranges[static_cast<std::size_t>(j)];
+        s.q[j] = random.between(range.q_min, range.q_max);
+        s.qd[j] = random.between(-range.qd_max, range.qd_max);
+        s.qdd[j] = random.between(-range.qdd_max, range.qdd_max);
+        s.temp[j] = random.between(0.0, 60.0);
     }
-
-    motion_state state(const std::vector<joint_range>& ranges) {
-        const auto n = static_cast<Eigen::Index>(ranges.size());
-        motion_state s{Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n), 0.0};
-        for (Eigen::Index j = 0; j < n; ++j) {
-            const joint_range& range = ranges[static_cast<std::size_t>(j)];
-            s.q[j] = between(range.q_min, range.q_max);
-            s.qd[j] = between(-range.qd_max, range.qd_max);
-            s.qdd[j] = between(-range.qdd_max, range.qdd_max);
-            s.temp[j] = between(0.0, 60.0);
-        }
-        s.t = between(0.0, 100.0);
-        return s;
-    }
-
-  private:
-    std::mt19937_64 random_;
-};
+    s.t = random.between(0.0, 100.0);
+    return s;
+}
 
 using value_table = std::map<std::string, double>;
 
@@ -110,7 +97,7 @@ std::vector<int> moved_joints(const idim_model_interface& model, const std::stri
     const Eigen::VectorXd chi = regrouped(model, {{name, 1.0}});
     Eigen::VectorXd largest = Eigen::VectorXd::Zero(model.dof);
     for (int i = 0; i < states; ++i) {
-        largest = largest.cwiseMax(torque(model, random.state(ranges), chi).cwiseAbs());
+        largest = largest.cwiseMax(torque(model, random_state(random, ranges), chi).cwiseAbs());
     }
     std::vector<int> joints;
     for (int j = 0; j < model.dof; ++j) {
@@ -195,7 +182,7 @@ torque_comparison compare_torques(const idim_model_interface& before, const idim
     uniform_numbers random(seed);
     difference_record differences(before.dof);
     for (int i = 0; i < states; ++i) {
-        const motion_state s = random.state(ranges);
+        const motion_state s = random_state(random, ranges);
         for (auto& [name, value] : values) {
             value = random.between(-1.0, 1.0);
         }

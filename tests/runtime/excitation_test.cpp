@@ -7,10 +7,10 @@
 #include <set>
 
 #include "excitation/excitation_problem.hpp"
-#include "excitation/uniform_numbers.hpp"
 #include "idim/excitation_quality.hpp"
 #include "idim/excitation_search.hpp"
 #include "idim/multisine.hpp"
+#include "uniform_numbers.hpp"
 
 namespace idim {
 namespace {

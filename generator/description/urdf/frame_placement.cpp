@@ -9,10 +9,6 @@ namespace {
 
 constexpr int none = -1;
 
-std::size_t at(int index) {
-    return static_cast<std::size_t>(index);
-}
-
 bool are_parallel(const decimal_vector& a, const decimal_vector& b) {
     return a.cross(b).norm() < geometric_tolerance;
 }

@@ -4,12 +4,6 @@ namespace idim::generator {
 
 namespace {
 
-constexpr int base = -1;
-
-std::size_t at(int index) {
-    return static_cast<std::size_t>(index);
-}
-
 /// The smallest rotation that takes z to `normal`; about x where it is -z.
 decimal_matrix smallest_turn(const decimal_vector& normal) {
     const decimal_vector v(-normal[1], normal[0], 0);  // z x normal
@@ -27,9 +21,9 @@ class axis_lister {
     explicit axis_lister(const urdf_tree& tree)
         : tree_(tree),
           pose_(tree.links.size()),
-          carrier_(tree.links.size(), base),
+          carrier_(tree.links.size(), base_link),
           joints_of_(tree.links.size()),
-          last_axis_(tree.joints.size(), base) {
+          last_axis_(tree.joints.size(), base_link) {
         for (std::size_t j = 0; j < tree.joints.size(); ++j) {
             joints_of_[at(tree.joints[j].parent)].push_back(static_cast<int>(j));
         }
@@ -72,7 +66,7 @@ class axis_lister {
         const auto can_come = [&](std::size_t j) {
             const int before = carrier_[at(tree_.joints[j].parent)];
             return !is_placed[j] && tree_.joints[j].type != urdf_joint_type::fixed &&
-                   (before == base || is_placed[at(before)]);
+                   (before == base_link || is_placed[at(before)]);
         };
         for (std::size_t j = 0; j < tree_.joints.size();) {
             if (can_come(j)) {
@@ -125,8 +119,10 @@ class axis_lister {
         axis.point = pose_[at(joint.child)].p;
         axis.direction = direction;
         const int carrier = carrier_[at(joint.parent)];
-        const bool is_first = last_axis_[at(index)] == base;
-        axis.antecedent = !is_first ? last_axis_[at(index)] : carrier == base ? base : last_axis_[at(carrier)];
+        const bool is_first = last_axis_[at(index)] == base_link;
+        axis.antecedent = !is_first              ? last_axis_[at(index)]
+                          : carrier == base_link ? base_link
+                                                 : last_axis_[at(carrier)];
         last_axis_[at(index)] = static_cast<int>(axes_.size());
         axes_.push_back(axis);
     }
@@ -152,7 +148,7 @@ class axis_lister {
 
     const urdf_tree& tree_;
     std::vector<rigid_pose> pose_;             ///< of each link in the base frame
-    std::vector<int> carrier_;                 ///< of each link: a joint, or base
+    std::vector<int> carrier_;                 ///< of each link: a joint, or base_link
     std::vector<std::vector<int>> joints_of_;  ///< that hang on each link
     std::vector<int> last_axis_;               ///< of each joint that moves
     std::vector<moving_axis> axes_;

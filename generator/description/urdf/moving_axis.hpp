@@ -9,6 +9,10 @@
 
 namespace idim::generator {
 
+inline std::size_t at(int index) {
+    return static_cast<std::size_t>(index);
+}
+
 /// A link that moves with an axis.
 struct carried_link {
     int link = 0;     ///< in urdf_tree::links
@@ -29,7 +33,7 @@ struct moving_axis {
     std::string name;
     joint_type type = joint_type::revolute;  ///< revolute or prismatic
     int joint = 0;                           ///< in urdf_tree::joints
-    int antecedent = -1;                     ///< the axis it moves with, always before it; -1 is the base
+    int antecedent = base_link;              ///< the axis it moves with, always before it
     decimal_vector point, direction;         ///< of the line, in the base frame [m, unit length]
     std::optional<followed_axis> follows;
     bool is_part = false;  ///< of a planar or floating joint

@@ -18,8 +18,7 @@ namespace idim::generator {
 
 namespace {
 
-constexpr std::size_t largest_file = 16'000'000;
-constexpr xml_limits limits = {32, 100'000, 64, "link", 2000};
+constexpr std::size_t largest_urdf = 16'000'000;
 constexpr int no_joint = -1;
 constexpr double largest_number = 1e9;
 
@@ -100,11 +99,11 @@ std::string printable(std::string message) {
     return message;
 }
 
-class urdf_file {
+class urdf_document {
   public:
-    explicit urdf_file(const std::string& file) : file_(file) {
+    explicit urdf_document(const std::string& file) : file_(file) {
         tree_.file = file;
-        root_ = read_xml(read_text_file(file, largest_file), file, limits);
+        root_ = read_xml(read_text_file(file, largest_urdf), file, urdf_limits);
     }
 
     urdf_tree read() {
@@ -472,7 +471,7 @@ class urdf_file {
 }  // namespace
 
 urdf_tree read_urdf(const std::string& file) {
-    return urdf_file(file).read();
+    return urdf_document(file).read();
 }
 
 }  // namespace idim::generator

@@ -13,11 +13,6 @@ namespace idim::generator {
 namespace {
 
 constexpr std::size_t most_rows = 200;
-constexpr int base = -1;
-
-std::size_t at(int index) {
-    return static_cast<std::size_t>(index);
-}
 
 /// "2*q_j1 + 0.3" and the like: `slope` stands before the sum unless it is one.
 std::string linear_text(const std::string& coordinate, const std::string& slope, const std::string& offset) {
@@ -99,10 +94,10 @@ class robot_builder {
 
     void add_axis(std::size_t k) {
         const moving_axis& axis = axes_[k];
-        const int antecedent = axis.antecedent == base ? base : row_[at(axis.antecedent)];
+        const int antecedent = axis.antecedent == base_link ? base_link : row_[at(axis.antecedent)];
         row_.push_back(static_cast<int>(robot_.joints.size()));
         const mdh_row entries =
-            row_between(axis.antecedent == base ? axis_frame{} : frames_[at(axis.antecedent)], frames_[k]);
+            row_between(axis.antecedent == base_link ? axis_frame{} : frames_[at(axis.antecedent)], frames_[k]);
         joint_description& row = add_row(axis.name, axis.joint, antecedent);
         row.type = axis.type;
         row.gamma.text = angle_text(entries.gamma);
@@ -217,7 +212,7 @@ class robot_builder {
                 moves_inertia[k] || std::any_of(links.begin(), links.end(), [this](const carried_link& carried) {
                     return link_at(carried.link).inertial.has_value();
                 });
-            if (axes_[k].antecedent != base && moves_inertia[k]) {
+            if (axes_[k].antecedent != base_link && moves_inertia[k]) {
                 moves_inertia[at(axes_[k].antecedent)] = true;
             }
         }
@@ -235,10 +230,10 @@ class robot_builder {
     void note_nearly_parallel_axes() {
         const decimal nearly("1e-3");
         for (const moving_axis& axis : axes_) {
-            const decimal_vector before = axis.antecedent == base ? decimal_vector(decimal_vector::UnitZ())
-                                                                  : axes_[at(axis.antecedent)].direction;
+            const decimal_vector before = axis.antecedent == base_link ? decimal_vector(decimal_vector::UnitZ())
+                                                                       : axes_[at(axis.antecedent)].direction;
             const decimal sine = before.cross(axis.direction).norm();
-            if (axis.antecedent != base && sine >= geometric_tolerance && sine < nearly) {
+            if (axis.antecedent != base_link && sine >= geometric_tolerance && sine < nearly) {
                 robot_.notes.push_back("the axes of joints " + axes_[at(axis.antecedent)].name + " and " + axis.name +
                                        " are " + length_text(decimal(sine.str(2))) +
                                        " rad from parallel: more digits of the angles would make them parallel");

@@ -30,6 +30,8 @@ struct xml_limits {
     std::size_t counted;  ///< elements named `counted_name`
 };
 
+inline constexpr xml_limits urdf_limits = {32, 100'000, 64, "link", 2000};
+
 /// The root element of the XML in `text`; `file` is named in messages. One pass from the first character to the last.
 /// Throws input_error with the line where the text is not well formed, holds a document type (so no entity is ever
 /// declared or expanded) or passes a limit.

@@ -26,10 +26,10 @@ constexpr double held_share = 1e-3;
 
 /// R [columns x (s + columns of single logs)]: the parameters of the columns of `rows` from the standard parameters
 /// and, behind them, those that single logs have of their own.
-Eigen::MatrixXd regrouping_of(const idim_model_interface& model, const observation& rows) {
+Eigen::MatrixXd regrouping_over_logs(const idim_model_interface& model, const observation& rows) {
     const Eigen::Index own = rows.n_base - model.n_base;
     Eigen::MatrixXd R = Eigen::MatrixXd::Zero(rows.n_base, model.n_standard + own);
-    R.topLeftCorner(model.n_base, model.n_standard) = idim::regrouping_of(model);
+    R.topLeftCorner(model.n_base, model.n_standard) = regrouping_of(model);
     R.bottomRightCorner(own, own).setIdentity();
     return R;
 }
@@ -173,7 +173,7 @@ consistent_estimate consistent_fit(const idim_model_interface& model, const obse
         return result;
     }
     result.unconstrained = weighted_fit(rows, weight);
-    const Eigen::MatrixXd R = regrouping_of(model, rows);
+    const Eigen::MatrixXd R = regrouping_over_logs(model, rows);
     const physical_parameters known = with_effect_only(known_all, R);
     const Eigen::VectorXd least = R.completeOrthogonalDecomposition().solve(weighted.fit.chi);
     const parameter_scale scale = scale_of(least, known);

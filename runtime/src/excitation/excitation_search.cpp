@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "excitation/excitation_problem.hpp"
-#include "excitation/uniform_numbers.hpp"
+#include "uniform_numbers.hpp"
 
 namespace idim {
 

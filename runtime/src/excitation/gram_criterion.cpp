@@ -8,7 +8,7 @@ namespace idim {
 namespace {
 
 /// Eigenvalues below are rounding.
-constexpr double smallest_eigenvalue = 1e-14;
+constexpr double eigenvalue_floor = 1e-14;
 
 /// Value and its derivative by each eigenvalue of S.
 double spectral_value(const Eigen::ArrayXd& eigenvalues, double p, Eigen::ArrayXd& slope) {
@@ -30,7 +30,7 @@ gram_value criterion_of(const Eigen::MatrixXd& G, excitation_criterion criterion
     const Eigen::VectorXd inverse = norm.cwiseInverse();
     const Eigen::MatrixXd S = inverse.asDiagonal() * G * inverse.asDiagonal();
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(S);
-    const Eigen::ArrayXd values = eigen.eigenvalues().array().max(smallest_eigenvalue);
+    const Eigen::ArrayXd values = eigen.eigenvalues().array().max(eigenvalue_floor);
     gram_value result;
     Eigen::ArrayXd slope;
     const auto b = static_cast<double>(G.rows());

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "excitation/sampled_model.hpp"
-#include "excitation/uniform_numbers.hpp"
+#include "uniform_numbers.hpp"
 
 namespace idim {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "excitation/uniform_numbers.hpp"
+#include "uniform_numbers.hpp"
 
 namespace idim {
 

@@ -15,8 +15,9 @@ namespace idim {
 
 namespace {
 
-constexpr double significance = 0.05;
-constexpr double needed_z = 1.0;  ///< gain on data held back, in its deviations, that makes a term needed all the same
+constexpr double need_significance = 0.05;
+constexpr double declared_z =
+    1.0;  ///< gain on data held back, in its deviations, that makes a term needed all the same
 
 /// Whether `name` is that of coefficient `stem` at a joint: "Fv3", or "Fvc3_4" of a pair.
 bool is_coefficient(const std::string& name, const std::string& stem, int joint) {
@@ -81,7 +82,7 @@ std::optional<elimination> least_supported(const trace_fit& fit, const std::vect
         const double m = std::max(1, fit.parameters() - reduced.parameters());
         const double p = partial_f(rows, reduced.loss() - fit.loss(), m).p_value;
         const double z = loss_difference(fit, reduced.residual(), fit.residual(), rows.length(), true);
-        if (p > significance && z < needed_z && p > (least ? least->p_value : 0.0)) {
+        if (p > need_significance && z < declared_z && p > (least ? least->p_value : 0.0)) {
             least = elimination{i, p, {errors_of(reduced, false), errors_of(reduced, true)}};
         }
     }

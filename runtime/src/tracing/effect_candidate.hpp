@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "idim/effect_trace.hpp"
 #include "traced_log.hpp"
 
 namespace idim {
@@ -43,6 +44,8 @@ enum class column_role {
 class effect_candidate {
   public:
     virtual ~effect_candidate() = default;
+
+    effect_place place() const { return {effect, joints, from}; }
 
     std::string effect;                ///< as in the catalogue
     std::vector<int> joints;           ///< where it acts, as reported

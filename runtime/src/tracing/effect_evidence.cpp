@@ -10,8 +10,8 @@ namespace idim {
 
 namespace {
 
-constexpr double shortest_block = 5.0;    ///< rows
-constexpr double blocks_in_memory = 4.0;  ///< correlation lengths in a block
+constexpr double shortest_block = 5.0;     ///< rows
+constexpr double memories_in_block = 4.0;  ///< correlation lengths in a block
 constexpr Eigen::Index fewest_blocks = 10;
 
 /// Rows at their places in time, zero between.
@@ -23,7 +23,7 @@ Eigen::VectorXd on_grid(const traced_log& log, int joint, const Eigen::VectorXd&
 
 /// Block of each sample: longer than the residual's correlation, but at least fewest_blocks of them.
 Eigen::Index block_length(Eigen::Index samples, double correlation) {
-    const auto wanted = static_cast<Eigen::Index>(std::ceil(std::max(shortest_block, blocks_in_memory * correlation)));
+    const auto wanted = static_cast<Eigen::Index>(std::ceil(std::max(shortest_block, memories_in_block * correlation)));
     return std::max<Eigen::Index>(1, std::min(wanted, samples / fewest_blocks));
 }
 

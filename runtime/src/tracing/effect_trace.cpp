@@ -25,8 +25,8 @@ namespace {
 constexpr double first_alignment = 0.5;  ///< of a sample: where its linearisation starts
 constexpr int linearisations = 3;
 constexpr double implausible_z = 2.0;
-constexpr double least_explained = 0.01;  ///< of the residual variance held back, once everything is fitted again
-constexpr double loosest_shape = 0.5;     ///< deviation of a shape over its value
+constexpr double least_by_refit = 0.01;  ///< of the residual variance held back, once everything is fitted again
+constexpr double loosest_shape = 0.5;    ///< deviation of a shape over its value
 /// The error over all joints may rise by this part: other joints' parameters move within their deviations.
 constexpr double error_margin = 2e-3;
 
@@ -74,10 +74,6 @@ Eigen::VectorXd least_values(const trace_input& input) {
         }
     }
     return least;
-}
-
-effect_place place_of(const effect_candidate& candidate) {
-    return {candidate.effect, candidate.joints, candidate.from};
 }
 
 /// A name that was given and taken back: what it explained changes with another joint's position.
@@ -172,7 +168,7 @@ class tracer {
         }
         for (const candidate_pointer& candidate : tried) {
             if (!candidate->when_permanent.empty()) {
-                effects.push_back({place_of(*candidate), candidate->when_permanent});
+                effects.push_back({candidate->place(), candidate->when_permanent});
             }
         }
         return effects;
@@ -189,13 +185,13 @@ class tracer {
             const effect_evidence& evidence = tried.evidence;
             const effect_candidate& candidate = *evidence.term.candidate;
             for (const suspect& known : suspects_) {
-                if (known.place == place_of(candidate)) {
+                if (known.place == candidate.place()) {
                     tried.objection = fmt::format("its size would change with q{}", known.changes_with + 1);
                 }
             }
             std::vector<double> values(evidence.coefficient.begin(), evidence.coefficient.end());
             values.insert(values.end(), evidence.term.shape.begin(), evidence.term.shape.end());
-            result_.candidates.push_back({place_of(candidate), tried.p_value, evidence.explained_fraction,
+            result_.candidates.push_back({candidate.place(), tried.p_value, evidence.explained_fraction,
                                           evidence.f_statistic, evidence.correlation_length, evidence.z_all(),
                                           evidence.z_moving(), std::move(values), tried.objection});
         }
@@ -267,7 +263,7 @@ class tracer {
         if (errors_of(with, true).relative_error > (1.0 + error_margin) * errors_of(fit, true).relative_error) {
             return "raises the error of the data held back once everything is fitted again";
         }
-        if (explained_fraction(fit, with, joints, {}) < least_explained) {
+        if (explained_fraction(fit, with, joints, {}) < least_by_refit) {
             return "explains next to nothing once everything is fitted again";
         }
         if (makes_implausible(fit, with)) {
@@ -372,7 +368,7 @@ class tracer {
         const tried_candidate& tried = all.candidates[chosen];
         const effect_candidate& candidate = *tried.evidence.term.candidate;
         trace_step step;
-        step.place = place_of(candidate);
+        step.place = candidate.place();
         step.p_value = tried.p_value;
         step.explained_fraction = explained_fraction(before, after, candidate.joints, result_.floor);
         step.confusable_with = confusable_with(before, all, chosen);

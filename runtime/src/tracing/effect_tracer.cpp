@@ -133,10 +133,6 @@ bool ranks_before(const tried_candidate& a, const tried_candidate& b) {
     return a.evidence.f_statistic > b.evidence.f_statistic;
 }
 
-effect_place place_of(const effect_candidate& candidate) {
-    return {candidate.effect, candidate.joints, candidate.from};
-}
-
 /// Weighted change of the residual of the fitted logs.
 Eigen::VectorXd prediction_of(const trace_fit& fit, const log_series& left) {
     std::vector<double> values;
@@ -210,7 +206,7 @@ effect_survey survey(const trace_fit& fit, const std::vector<candidate_pointer>&
     for (const tried_candidate& tried : result.candidates) {
         if (tried.evidence.within_span) {
             result.within_span.push_back(
-                {place_of(*tried.evidence.term.candidate), absorbing_columns(fit, tried.evidence)});
+                {tried.evidence.term.candidate->place(), absorbing_columns(fit, tried.evidence)});
         }
     }
     std::stable_sort(result.candidates.begin(), result.candidates.end(), ranks_before);
@@ -232,7 +228,7 @@ std::vector<effect_place> confusable_with(const trace_fit& fit, const effect_sur
         const double norms = prediction.norm() * best_prediction.norm();
         const bool alike = norms > 0.0 && prediction.dot(best_prediction) > look_alike * norms;
         if (alike && loss_difference(fit, left, best_left, best.correlation_length) < indistinguishable_z) {
-            places.push_back(place_of(*other.evidence.term.candidate));
+            places.push_back(other.evidence.term.candidate->place());
         }
     }
     return places;

@@ -42,15 +42,15 @@ bool varies(const trace_fit& fit, const signal_source& source) {
 }
 
 /// Rows of the joint in one log that are away from reversals, and the samples they stand at.
-struct moving_rows {
+struct separated_rows {
     std::vector<Eigen::Index> row;
     std::vector<Eigen::Index> sample;
 };
 
-moving_rows moving_rows_of(const traced_log& log, int joint) {
+separated_rows separated_rows_of(const traced_log& log, int joint) {
     const auto j = static_cast<std::size_t>(joint);
     const std::vector<Eigen::Index>& kept = log.rows.kept[j];
-    moving_rows rows;
+    separated_rows rows;
     for (std::size_t k = 0; k < kept.size(); ++k) {
         if (!log.reversal[j][static_cast<Eigen::Index>(k)]) {
             rows.row.push_back(static_cast<Eigen::Index>(k));
@@ -88,10 +88,10 @@ std::vector<signal_source> sources_for(const trace_fit& fit, int joint) {
 joint_residual residual_of(const trace_fit& fit, int joint, const std::vector<signal_source>& sources, bool held_back) {
     const auto j = static_cast<std::size_t>(joint);
     const Eigen::MatrixXd& combined = fit.combinations();
-    std::vector<moving_rows> rows;
+    std::vector<separated_rows> rows;
     Eigen::Index count = 0;
     for (const traced_log& log : fit.logs()) {
-        rows.push_back(log.held_back == held_back ? moving_rows_of(log, joint) : moving_rows{});
+        rows.push_back(log.held_back == held_back ? separated_rows_of(log, joint) : separated_rows{});
         count += static_cast<Eigen::Index>(rows.back().row.size());
     }
     joint_residual all{Eigen::VectorXd(count), Eigen::MatrixXd(count, combined.cols()), Eigen::VectorXd(count),

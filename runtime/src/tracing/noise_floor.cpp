@@ -12,13 +12,13 @@ namespace {
 constexpr double clear_of_motion = 2.0;  ///< bands of the rows
 constexpr double below_nyquist = 0.8;    ///< of half the rate
 constexpr std::size_t fewest_bins = 8;
-constexpr Eigen::Index shortest = 64;  ///< samples
+constexpr Eigen::Index fewest_samples = 64;  ///< samples
 
 /// Densities of one joint's torque above the motion.
 void append_densities(const traced_log& log, Eigen::Index joint, std::vector<double>& densities) {
     const double band = 0.4 * log.rows.rate;
     const double rate = log.samples.rate;
-    if (log.samples.samples() < shortest) {
+    if (log.samples.samples() < fewest_samples) {
         return;
     }
     const power_spectrum spectrum =

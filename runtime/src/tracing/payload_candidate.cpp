@@ -15,7 +15,7 @@ namespace {
 /// Ten columns that are nearly the model's own would take any size: what an interval leaves outside the span is more.
 constexpr double least_of_a_load = 1e-2;
 /// A load is on for at least, and off for at least, this part of a log.
-constexpr double shortest_share = 0.05;
+constexpr double shortest_part = 0.05;
 
 /// Sums over the rows up to each of ascending times: Gram matrix of the columns, their part in the span of the model,
 /// and their product with the residual.
@@ -142,7 +142,7 @@ class part_time_load final : public effect_candidate {
             for (std::size_t end = begin + 1; end < times.size(); ++end) {
                 const double duration = times[end] - times[begin];
                 if (std::abs(times[begin] - near.first) > reach || std::abs(times[end] - near.second) > reach ||
-                    duration < shortest_share * whole || duration > (1.0 - shortest_share) * whole) {
+                    duration < shortest_part * whole || duration > (1.0 - shortest_part) * whole) {
                     continue;
                 }
                 const double gain = gain_between(sums, begin, end);

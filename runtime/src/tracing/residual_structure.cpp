@@ -15,12 +15,12 @@ namespace {
 
 constexpr int knots_alone = 8;
 constexpr int knots_in_pair = 5;
-constexpr double least_explained = 0.1;   ///< of the variance held back: less is nothing to act upon
-constexpr double simpler_share = 0.8;     ///< of what two signals explain is enough for one
-constexpr double significance = 0.05;     ///< over all joints
-constexpr int rows_per_column = 3;        ///< of the surface and the model, on either data
-constexpr double blocks_in_memory = 4.0;  ///< correlation lengths that a shift exceeds
-constexpr std::uint64_t seed = 1;         ///< of the shifts: the same log gives the same answer
+constexpr double least_predicted = 0.1;       ///< of the variance held back: less is nothing to act upon
+constexpr double simpler_share = 0.8;         ///< of what two signals explain is enough for one
+constexpr double significance_of_all = 0.05;  ///< over all joints
+constexpr int rows_per_column = 3;            ///< of the surface and the model, on either data
+constexpr double memories_in_shift = 4.0;     ///< correlation lengths that a shift exceeds
+constexpr std::uint64_t seed = 1;             ///< of the shifts: the same log gives the same answer
 
 using signal_set = std::vector<Eigen::Index>;  ///< columns of joint_residual::signals
 
@@ -174,7 +174,7 @@ class dependence_test {
     /// The residual, then copies shifted in time, wrapped around; all of norm 1 outside the span of the model.
     Eigen::MatrixXd shifted_residuals(double length, int shifts) const {
         const Eigen::Index n = left_.size();
-        const auto least = std::min<Eigen::Index>(n / 10, static_cast<Eigen::Index>(blocks_in_memory * length) + 1);
+        const auto least = std::min<Eigen::Index>(n / 10, static_cast<Eigen::Index>(memories_in_shift * length) + 1);
         std::mt19937_64 random(seed);
         Eigen::MatrixXd all(n, shifts + 1);
         all.col(0) = left_;
@@ -204,7 +204,7 @@ std::optional<signal_set> best_set(const dependence_test& test, double& explaine
     const double of_one = test.explained_held_back(test.sets()[static_cast<std::size_t>(alone)]);
     const bool one = of_one >= simpler_share * of_best;
     explained = one ? of_one : of_best;
-    if (!(explained >= least_explained)) {
+    if (!(explained >= least_predicted)) {
         return std::nullopt;
     }
     return test.sets()[static_cast<std::size_t>(one ? alone : best)];
@@ -214,13 +214,14 @@ std::optional<signal_set> best_set(const dependence_test& test, double& explaine
 
 std::vector<signal_dependence> find_dependences(const trace_fit& fit) {
     const auto joints = static_cast<int>(fit.residual().front().size());
-    const int shifts = static_cast<int>(std::ceil(2.0 * joints / significance)) - 1;
+    const int shifts = static_cast<int>(std::ceil(2.0 * joints / significance_of_all)) - 1;
     std::vector<signal_dependence> found;
     for (int j = 0; j < joints; ++j) {
         const dependence_test test(fit, j);
         double explained = 0.0;
         const std::optional<signal_set> set = test.sets().empty() ? std::nullopt : best_set(test, explained);
-        if (set && test.p_value(*set, correlation_length(fit, fit.residual(), j), shifts) <= significance / joints) {
+        if (set &&
+            test.p_value(*set, correlation_length(fit, fit.residual(), j), shifts) <= significance_of_all / joints) {
             signal_dependence dependence{j, {}, explained};
             for (const Eigen::Index s : *set) {
                 dependence.signals.push_back(test.sources()[static_cast<std::size_t>(s)]);

@@ -13,7 +13,7 @@ namespace idim {
 
 namespace {
 
-constexpr double significance = 0.01;  ///< corrected for the joints tried: a true name is lost as rarely as that
+constexpr double change_significance = 0.01;  ///< corrected for the joints tried: a true name is lost as rarely as that
 /// Gain of the change over that of the term: a size that varies by less than a third of itself (rms) is described.
 constexpr double least_change = 0.1;
 
@@ -107,7 +107,7 @@ std::optional<int> joint_that_changes(const trace_fit& fit, std::size_t term) {
         }
         const auto candidate = std::make_shared<changing_size>(tested, pooled.coefficients(term), other, range);
         const effect_evidence evidence = test_on_fitted(pooled, {candidate, Eigen::VectorXd()}, false);
-        if (evidence.gain > most && corrected(evidence.p_value, joints - 1) < significance &&
+        if (evidence.gain > most && corrected(evidence.p_value, joints - 1) < change_significance &&
             shows_everywhere(pooled, evidence)) {
             found = other;
             most = evidence.gain;

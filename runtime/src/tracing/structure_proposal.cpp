@@ -13,10 +13,11 @@ namespace idim {
 
 namespace {
 
-constexpr int blocks = 10;        ///< of cross-validation, each a stretch of time
-constexpr double as_good = 0.02;  ///< of the residual: of forms that explain as much but for this the simplest is taken
-constexpr double least_explained = 0.05;  ///< of the residual, in the blocks left out
-constexpr double collinear = 1e-3;        ///< part of a term's norm that is left outside the model
+constexpr int blocks = 10;  ///< of cross-validation, each a stretch of time
+constexpr double as_good_form =
+    0.02;  ///< of the residual: of forms that explain as much but for this the simplest is taken
+constexpr double least_by_form = 0.05;  ///< of the residual, in the blocks left out
+constexpr double collinear = 1e-3;      ///< part of a term's norm that is left outside the model
 
 /// A function of a signal, as it is written and as it is evaluated; {} stands for the signal.
 struct signal_function {
@@ -211,7 +212,7 @@ fitted_form best_form(const joint_residual& rows, const signal_dependence& depen
     for (const fitted_form& form : fitted) {
         const bool simpler = best.terms.empty() || form.terms.size() < best.terms.size() ||
                              (form.terms.size() == best.terms.size() && form.explained > best.explained);
-        if (!form.terms.empty() && form.explained >= most - as_good && simpler) {
+        if (!form.terms.empty() && form.explained >= most - as_good_form && simpler) {
             best = form;
         }
     }
@@ -219,7 +220,7 @@ fitted_form best_form(const joint_residual& rows, const signal_dependence& depen
         grammar_form fewer = best.terms;
         fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));
         const fitted_form without = fit_form(span, left, fewer);
-        if (without.explained >= best.explained - 0.5 * as_good) {
+        if (without.explained >= best.explained - 0.5 * as_good_form) {
             best = without;
         } else {
             ++k;
@@ -255,7 +256,7 @@ std::optional<proposed_torque> propose(const trace_fit& fit, const signal_depend
     }
     const joint_residual rows = residual_of(fit, dependence.joint, dependence.signals, false);
     const fitted_form best = best_form(rows, dependence);
-    if (best.explained < least_explained) {
+    if (best.explained < least_by_form) {
         return std::nullopt;
     }
     proposed_torque proposal;

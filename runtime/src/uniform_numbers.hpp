@@ -13,6 +13,7 @@ class uniform_numbers {
 
     /// In [0, 1).
     double next() { return static_cast<double>(random_() >> 11) * 0x1p-53; }
+    double between(double low, double high) { return low + (high - low) * next(); }
     /// Each in [-1, 1).
     Eigen::VectorXd vector(Eigen::Index size) {
         Eigen::VectorXd values(size);
