@@ -12,7 +12,6 @@ namespace idim::generator {
 namespace {
 
 constexpr std::size_t most_effects = 1000;
-constexpr int base = -1;
 
 std::vector<int> read_joint_names(const yaml_value& written, const std::vector<joint_description>& joints) {
     const auto items = written.items("a list of joint names such as [" + joints.front().name + "]");
@@ -96,7 +95,7 @@ std::vector<effect_use> read_effects(const yaml_fields& robot, const std::vector
         effects.push_back(read_effect_use(item, joints));
         const effect_use& use = effects.back();
         for (std::size_t k = 0; k < use.joints.size(); ++k) {
-            const int from = use.from.empty() ? base : use.from[k];
+            const int from = use.from.empty() ? base_link : use.from[k];
             const auto [first, is_new] = lines.emplace(std::tuple(use.effect, use.joints[k], from), use.where.line);
             if (!is_new) {
                 throw input_error(use.where, "effect " + quote(use.effect) + " is already on joint " +

@@ -14,7 +14,7 @@ namespace idim::cli {
 namespace {
 
 /// Gravity changes in proportion to so small an angle, and by far more than rounding.
-constexpr double angle = 1e-3;
+constexpr double tilt = 1e-3;
 
 bool is_written_as_zero(const std::string& text) {
     char* end = nullptr;
@@ -33,9 +33,9 @@ std::vector<turned_robot> load_turned(const std::string& robot_file) {
                             !is_written_as_zero(robot.gravity[(axis + 2) % 3].text);
         if (across) {
             const private_folder folder(std::filesystem::temp_directory_path() / "idim-turned-");
-            const std::string file = write_with_effects(robot_file, {{"base_tilt", {}, {}, {{shapes[axis], angle}}}},
-                                                        folder.path().string());
-            turned.push_back({shapes[axis], angle, load_variant(file)});
+            const std::string file =
+                write_with_effects(robot_file, {{"base_tilt", {}, {}, {{shapes[axis], tilt}}}}, folder.path().string());
+            turned.push_back({shapes[axis], tilt, load_variant(file)});
         }
     }
     return turned;

@@ -28,8 +28,7 @@ constexpr double energy_share = 0.999;
 // Loss of |H|^2 at the band edge. 2026-11-22: 5e-4, 5e-5 and 1e-5 were tried on the simulated SCARA and the measured
 // EMPS, TX40 and Panda; 1e-5 left the simulated inertia of joint 2 the least biased (0.09 % against 0.13 %).
 constexpr double droop = 1e-5;
-constexpr double visible_rise =
-    4.0;  // of the acceleration spectrum above its valley, for a noise floor to count as seen
+constexpr double least_rise = 4.0;  // of the acceleration spectrum above its valley, for a noise floor to count as seen
 constexpr double largest_cutoff = 0.4;     // of the rate: 0.8 of the Nyquist frequency
 constexpr Eigen::Index shortest_log = 64;  // samples, for segments of 16
 constexpr double decade = 10.0;            // [CWLS III]: cut-off a decade above the highest frequency of the motion
@@ -129,7 +128,7 @@ double find_noise_floor(const std::vector<joint_spectra>& spectra, double rate) 
         }
         rise = std::max(rise, level - floor);
     }
-    return rise >= std::log(visible_rise) ? valley : std::numeric_limits<double>::infinity();
+    return rise >= std::log(least_rise) ? valley : std::numeric_limits<double>::infinity();
 }
 
 /// Frequency below which every joint's acceleration, and its torque if `with_torque`, has `energy_share` of its energy.

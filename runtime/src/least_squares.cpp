@@ -19,7 +19,7 @@ constexpr double normal_consistency = 1.4826;
 constexpr int most_iterations = 100;
 // From here on the scales are held: what is left is convex in chi, so that it cannot cycle with the median.
 constexpr int scale_iterations = 10;
-constexpr double tolerance = 1e-10;
+constexpr double smallest_change = 1e-10;
 
 /// Per joint: 1.4826 times the median of |residual|, with the correction for the parameters that the joint's rows
 /// determine.
@@ -96,7 +96,7 @@ estimate reweighted(const observation& rows, weighted_solution start) {
         qr = factor(rows, huber_weights(residual, weights_of(scale)));
         const Eigen::VectorXd chi = qr.solve();
         const Eigen::VectorXd change = (chi - result.chi).cwiseProduct(qr.column_norm);
-        result.converged = (qr.R * change).norm() <= tolerance * qr.z.norm();
+        result.converged = (qr.R * change).norm() <= smallest_change * qr.z.norm();
         result.chi = chi;
         result.iterations.push_back({chi, errors(rows, chi).relative_error});
     }

@@ -16,7 +16,7 @@ namespace {
 
 // A model rounds alike on every processor: no contraction into fused operations, nor the pairing of statements in which
 // gcc 12 fuses all the same (vfmaddsub in the regressor of a 6R).
-const std::vector<std::string> flags = {
+const std::vector<std::string> compiler_flags = {
     "-std=c++17", "-O2",    "-ffp-contract=off", "-fno-tree-slp-vectorize", "-fPIC", "-shared", "-Wall",
     "-Wextra",    "-Werror"};
 // A compiled model never leaves the machine, so it may use all instructions of its processor.
@@ -124,7 +124,7 @@ system_compiler find_compiler(const std::string& name) {
     }
     compiler.version = answer.output;
     const child_result macros = native_macros(compiler.command);
-    compiler.command.insert(compiler.command.end(), flags.begin(), flags.end());
+    compiler.command.insert(compiler.command.end(), compiler_flags.begin(), compiler_flags.end());
     if (macros.exit_status == 0) {
         compiler.command.emplace_back(native);
         compiler.version += macros.output;

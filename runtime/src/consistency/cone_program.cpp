@@ -14,11 +14,11 @@ namespace idim {
 
 namespace {
 
-constexpr int most_steps = 1000;
-constexpr double centred = 1e-6;          // Newton decrement squared, in units of the weight
-constexpr double weight_factor = 0.1;     // from one central point to the next
-constexpr int most_idle_weights = 3;      // that do not improve the proof: rounding is all that is left
-constexpr double rounding_share = 1e-14;  // of |b|^2 / 2: what gradients of double precision can prove
+constexpr int most_newton_steps = 1000;
+constexpr double centred_decrement = 1e-6;  // Newton decrement squared, in units of the weight
+constexpr double weight_factor = 0.1;       // from one central point to the next
+constexpr int most_idle_weights = 3;        // that do not improve the proof: rounding is all that is left
+constexpr double rounding_share = 1e-14;    // of |b|^2 / 2: what gradients of double precision can prove
 constexpr double shortest_step = 1e-12;
 constexpr double boundary_share = 0.99;
 
@@ -326,7 +326,7 @@ void set_multipliers(const cone_program& program, const std::vector<divergence_t
 /// Newton's method to the central point of at.weight; false where it stalls.
 bool centre(const cone_program& program, cone_solution& at) {
     double before = std::numeric_limits<double>::infinity();
-    while (at.steps < most_steps) {
+    while (at.steps < most_newton_steps) {
         const std::vector<divergence_term> terms = terms_at(program, at.x, at.weight);
         const newton_rows rows = rows_at(program, terms, at.x, at.weight);
         const Eigen::VectorXd step = scaled_least_squares(rows.J).solve(rows.r);
@@ -335,7 +335,8 @@ bool centre(const cone_program& program, cone_solution& at) {
             return false;
         }
         // Below 1 a Newton step squares the decrement: where it does not, rounding is all that is left.
-        const bool arrives = decrement < centred || (before < 1e-2 && decrement < 0.1 && decrement > 0.1 * before);
+        const bool arrives =
+            decrement < centred_decrement || (before < 1e-2 && decrement < 0.1 && decrement > 0.1 * before);
         double length = arrives ? 1.0 : along(program, terms, at.x, step, at.weight).minimum();
         while (length > shortest_step && !is_inside(program, at.x + length * step)) {
             length *= 0.5;  // the boundary is nearer than rounding tells

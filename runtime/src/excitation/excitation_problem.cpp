@@ -14,7 +14,7 @@ namespace {
 constexpr Eigen::Index samples_per_harmonic = 40;
 /// The derivative of a smooth regressor by positions or speeds is far below, that of a jump of a sign in one step far
 /// above.
-constexpr double jump = 1e3;
+constexpr double steepest_slope = 1e3;
 
 /// Mean of exponentials of `values`, not below the largest, and its derivative by each.
 double smooth_maximum(const Eigen::ArrayXd& values, double sharpness, Eigen::ArrayXd& weight) {
@@ -54,7 +54,7 @@ Eigen::MatrixXd regressor_derivative(const idim_model_interface& model, const mo
     signal(moved, order).col(joint).array() -= 2.0 * step;
     slope -= sampled_regressor(model, moved);
     slope /= 2.0 * step;
-    return (slope.array().abs() < jump).select(slope, 0.0);
+    return (slope.array().abs() < steepest_slope).select(slope, 0.0);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace idim {
 namespace {
 
 constexpr double significance = 0.01;        ///< corrected for everything tried
-constexpr double promising = 0.2;            ///< corrected p of the quick columns, to look at the exact ones
+constexpr double worth_a_look = 0.2;         ///< corrected p of the quick columns, to look at the exact ones
 constexpr double least_held_back_z = 2.33;   ///< one-sided 1 %
 constexpr double least_moving_z = 2.0;       ///< one-sided 2.3 %, away from reversals
 constexpr double least_explained = 0.015;    ///< of the residual variance on data not fitted to
@@ -188,7 +188,7 @@ effect_survey survey(const trace_fit& fit, const std::vector<candidate_pointer>&
     effect_survey result;
     std::vector<effect_evidence> found(candidates.size());
     for_each_on_all_cores(candidates.size(),
-                          [&](std::size_t i) { found[i] = search_shape(fit, candidates[i], promising); });
+                          [&](std::size_t i) { found[i] = search_shape(fit, candidates[i], worth_a_look); });
     for (const effect_evidence& evidence : found) {
         result.tests += evidence.shapes_tried;
     }
@@ -197,7 +197,7 @@ effect_survey survey(const trace_fit& fit, const std::vector<candidate_pointer>&
         tried_candidate& tried = result.candidates[i];
         const double own = corrected(found[i].p_value, found[i].shapes_tried);
         tried.p_value = corrected(own, static_cast<double>(candidates.size()));
-        if (tried.p_value < promising) {
+        if (tried.p_value < worth_a_look) {
             test_on_held_back(fit, found[i]);
         }
         tried.evidence = std::move(found[i]);
