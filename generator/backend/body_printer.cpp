@@ -14,7 +14,7 @@ namespace {
 /// How tightly the printed text binds.
 enum class binding { sum, product, atom };
 
-struct printed {
+struct printed_value {
     std::string text;
     binding tightness = binding::atom;
 };
@@ -127,7 +127,7 @@ class body_printer {
         variable_[id] = name;
     }
 
-    printed leaf(const graph_node& node) const {
+    printed_value leaf(const graph_node& node) const {
         if (node.kind == operation::constant) {
             return {spelling_.number(node.value)};
         }
@@ -137,7 +137,7 @@ class body_printer {
         return {is_scalar ? argument : spelling_.element(names_, argument, symbol.index)};
     }
 
-    printed operand(int id) const {
+    printed_value operand(int id) const {
         const auto variable = variable_.find(id);
         if (variable != variable_.end()) {
             return {variable->second};
@@ -148,7 +148,7 @@ class body_printer {
 
     /// Text of an operand, in parentheses unless it binds at least as tightly as `least`.
     std::string inside(int id, binding least) const {
-        const printed value = operand(id);
+        const printed_value value = operand(id);
         return value.tightness < least ? "(" + value.text + ")" : value.text;
     }
 
@@ -156,7 +156,7 @@ class body_printer {
         return value.negative ? "-" + inside(value.id, binding::atom) : operand(value.id).text;
     }
 
-    printed expression(const graph_node& node) const {
+    printed_value expression(const graph_node& node) const {
         switch (node.kind) {
             case operation::add:
                 return {inside(node.a.id, binding::sum) + (node.b.negative ? " - " : " + ") +

@@ -106,7 +106,7 @@ class form_reader {
     const std::vector<rational>& constants_;
 };
 
-struct angle {
+struct coordinate_angle {
     int node = 0;
     linear_form form;
 };
@@ -118,8 +118,8 @@ struct dependent_angle {
     rational constant = 0;
 };
 
-std::vector<angle> angles_of(const expression_graph& graph, const form_reader& reader) {
-    std::map<int, angle> found;
+std::vector<coordinate_angle> angles_of(const expression_graph& graph, const form_reader& reader) {
+    std::map<int, coordinate_angle> found;
     for (const graph_node& node : graph.nodes()) {
         const bool turns = node.kind == operation::function &&
                            (node.function == function_kind::cos || node.function == function_kind::sin);
@@ -130,7 +130,7 @@ std::vector<angle> angles_of(const expression_graph& graph, const form_reader& r
             found[node.a.id] = {node.a.id, *form};
         }
     }
-    std::vector<angle> result;
+    std::vector<coordinate_angle> result;
     for (const auto& [node, one] : found) {
         result.push_back(one);
     }
@@ -141,7 +141,7 @@ std::vector<angle> angles_of(const expression_graph& graph, const form_reader& r
 class echelon {
   public:
     /// The angle in terms of the free ones before it, or nothing, and then it is free itself.
-    std::optional<dependent_angle> insert(const angle& one) {
+    std::optional<dependent_angle> insert(const coordinate_angle& one) {
         linear_form rest = one.form;
         dependent_angle result;
         result.node = one.node;
@@ -199,7 +199,7 @@ angle_relations::angle_relations(const expression_graph& graph, const std::vecto
     echelon rows;
     std::vector<int> free;
     std::vector<dependent_angle> dependent;
-    for (const angle& one : angles_of(graph, form_reader(graph, constants))) {
+    for (const coordinate_angle& one : angles_of(graph, form_reader(graph, constants))) {
         if (auto relation = rows.insert(one)) {
             dependent.push_back(*relation);
         } else {

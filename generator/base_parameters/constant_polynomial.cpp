@@ -20,7 +20,7 @@ monomial product_of(const monomial& a, const monomial& b) {
     return {exponents.begin(), exponents.end()};
 }
 
-std::string printed(const monomial& m, const kinematic_tree& tree) {
+std::string printed_monomial(const monomial& m, const kinematic_tree& tree) {
     std::string text;
     for (const auto& [constant, exponent] : m) {
         text += (text.empty() ? "" : "*") + tree.constants[constant].text;
@@ -87,7 +87,7 @@ std::string constant_polynomial::text(const kinematic_tree& tree) const {
     for (const auto& [m, coefficient] : terms) {
         const bool negative = cln::minusp(coefficient);
         const rational magnitude = cln::abs(coefficient);
-        const std::string factors = printed(m, tree);
+        const std::string factors = printed_monomial(m, tree);
         text += text.empty() ? (negative ? "-" : "") : (negative ? " - " : " + ");
         if (factors.empty() || magnitude != 1) {
             text += to_fraction(magnitude) + (factors.empty() ? "" : "*");

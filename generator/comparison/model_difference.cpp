@@ -11,16 +11,16 @@ namespace idim::generator {
 
 namespace {
 
-using entries = std::vector<std::pair<std::string, std::string>>;  ///< what it is called, what it is
+using named_texts = std::vector<std::pair<std::string, std::string>>;  ///< what it is called, what it is
 
-const std::string* find(const entries& list, const std::string& name) {
+const std::string* find(const named_texts& list, const std::string& name) {
     const auto found =
         std::find_if(list.begin(), list.end(), [&name](const auto& entry) { return entry.first == name; });
     return found == list.end() ? nullptr : &found->second;
 }
 
 /// Entries that differ: those of the new list in its order, then those that it no longer has.
-std::vector<entry_change> changes(const std::string& what, const entries& before, const entries& after) {
+std::vector<entry_change> changes(const std::string& what, const named_texts& before, const named_texts& after) {
     std::vector<entry_change> result;
     const auto add = [&](const std::string& name, const std::string& old_text, const std::string& new_text) {
         result.push_back(what.empty() ? entry_change{name, "", old_text, new_text}
@@ -51,8 +51,8 @@ std::vector<std::string> missing(const std::vector<std::string>& from, const std
     return result;
 }
 
-entries constants_of(const manifest& content) {
-    entries result;
+named_texts constants_of(const manifest& content) {
+    named_texts result;
     for (const auto& [name, value] : content.constants) {
         result.emplace_back(name, fmt::format("{}", value));
     }
@@ -63,8 +63,9 @@ std::string text_of(const std::optional<double>& number) {
     return number ? fmt::format("{}", *number) : "";
 }
 
-entries entries_of(const manifest_joint& joint) {
-    entries result = {{"type", joint.type}, {"antecedent", joint.antecedent}, {"driven", joint.driven ? "yes" : "no"}};
+named_texts entries_of(const manifest_joint& joint) {
+    named_texts result = {
+        {"type", joint.type}, {"antecedent", joint.antecedent}, {"driven", joint.driven ? "yes" : "no"}};
     for (const char* const name : {"gamma", "b", "alpha", "d", "theta", "r"}) {
         const std::string* const entry = find(joint.row, name);
         result.emplace_back(name, entry == nullptr ? "0" : *entry);
@@ -111,7 +112,7 @@ std::string name_of(const manifest_loop& loop) {
     return fmt::format("{}", fmt::join(loop.passive, ", "));
 }
 
-entries entries_of(const manifest_loop& loop) {
+named_texts entries_of(const manifest_loop& loop) {
     const auto text = [](const manifest_loop::point& from) {
         return fmt::format("{} [{}]", from.link, fmt::join(from.at, ", "));
     };
@@ -119,10 +120,10 @@ entries entries_of(const manifest_loop& loop) {
 }
 
 /// What is written of the loop that determines the same joints; nothing where there is none.
-entries same_loop(const manifest& content, const manifest_loop& loop) {
+named_texts same_loop(const manifest& content, const manifest_loop& loop) {
     const auto found = std::find_if(content.loops.begin(), content.loops.end(),
                                     [&loop](const manifest_loop& other) { return other.passive == loop.passive; });
-    return found == content.loops.end() ? entries{} : entries_of(*found);
+    return found == content.loops.end() ? named_texts{} : entries_of(*found);
 }
 
 std::vector<entry_change> loop_changes(const manifest& before, const manifest& after) {
@@ -160,8 +161,8 @@ const effect_place* find(const std::vector<effect_place>& places, const std::str
     return found == places.end() ? nullptr : &*found;
 }
 
-entries entries_of(const manifest_effect& effect) {
-    entries result;
+named_texts entries_of(const manifest_effect& effect) {
+    named_texts result;
     for (const auto& [name, value] : effect.shape) {
         result.emplace_back("shape " + name, fmt::format("{}", value));
     }
@@ -341,7 +342,7 @@ model_difference compare(const model_summary& before, const model_summary& after
     compare_effects(result, before.content, after.content);
     result.constants = changes("", constants_of(before.content), constants_of(after.content));
     const auto gravity = [](const manifest& content) {
-        return entries{{"gravity", fmt::format("[{}]", fmt::join(content.gravity, ", "))}};
+        return named_texts{{"gravity", fmt::format("[{}]", fmt::join(content.gravity, ", "))}};
     };
     result.gravity = changes("", gravity(before.content), gravity(after.content));
     result.joints = joint_changes(before.content, after.content);

@@ -12,7 +12,7 @@ namespace {
 using generator::entry_change;
 using generator::operation_count;
 using generator::parameter_context;
-using rows = std::vector<std::vector<std::string>>;
+using table_rows = std::vector<std::vector<std::string>>;
 
 std::string origin(const compared_model& model) {
     const generator::manifest& content = model.summary.content;
@@ -97,16 +97,16 @@ bool operations_changed(const generator::model_difference& difference) {
                        });
 }
 
-rows rows_of(const std::vector<parameter_context>& parameters) {
-    rows result;
+table_rows rows_of(const std::vector<parameter_context>& parameters) {
+    table_rows result;
     for (const parameter_context& parameter : parameters) {
         result.push_back({parameter.name, parameter.unit, parameter.regroups});
     }
     return result;
 }
 
-rows effect_rows(const std::vector<generator::manifest_effect>& effects) {
-    rows result;
+table_rows effect_rows(const std::vector<generator::manifest_effect>& effects) {
+    table_rows result;
     for (const generator::manifest_effect& effect : effects) {
         std::vector<std::string> places = effect.joints;
         for (std::size_t i = 0; i < effect.from.size(); ++i) {
@@ -125,8 +125,8 @@ std::string shown(const std::string& entry) {
     return entry.empty() ? "-" : entry;
 }
 
-rows rows_of(const std::vector<entry_change>& changes, bool with_field) {
-    rows result;
+table_rows rows_of(const std::vector<entry_change>& changes, bool with_field) {
+    table_rows result;
     for (const entry_change& change : changes) {
         std::vector<std::string> row = {change.what};
         if (with_field) {
@@ -139,8 +139,8 @@ rows rows_of(const std::vector<entry_change>& changes, bool with_field) {
     return result;
 }
 
-rows regrouping_rows(const std::vector<generator::regrouping_change>& changes) {
-    rows result;
+table_rows regrouping_rows(const std::vector<generator::regrouping_change>& changes) {
+    table_rows result;
     for (const generator::regrouping_change& change : changes) {
         if (formula_changed(change)) {
             const auto text = [](const parameter_context& p) {
@@ -152,8 +152,8 @@ rows regrouping_rows(const std::vector<generator::regrouping_change>& changes) {
     return result;
 }
 
-rows coefficient_rows(const std::vector<generator::regrouping_change>& changes) {
-    rows result;
+table_rows coefficient_rows(const std::vector<generator::regrouping_change>& changes) {
+    table_rows result;
     for (const generator::regrouping_change& change : changes) {
         for (const generator::coefficient_change& coefficient : change.coefficients) {
             result.push_back({change.after.name, coefficient.standard, fmt::format("{:.9g}", coefficient.before),
@@ -178,9 +178,9 @@ std::string moved_by(const std::string& name, const std::vector<one_sided_parame
 }
 
 /// Parameters that move the same joints share a row.
-rows standard_rows(const std::vector<std::string>& names, const std::vector<one_sided_parameter>& moved,
-                   const model_comparison& comparison) {
-    rows result;
+table_rows standard_rows(const std::vector<std::string>& names, const std::vector<one_sided_parameter>& moved,
+                         const model_comparison& comparison) {
+    table_rows result;
     for (const std::string& name : names) {
         const std::string joints = moved_by(name, moved, comparison);
         if (result.empty() || result.back()[1] != joints) {
@@ -192,11 +192,11 @@ rows standard_rows(const std::vector<std::string>& names, const std::vector<one_
     return result;
 }
 
-rows column_rows(const std::vector<generator::column_move>& moves) {
+table_rows column_rows(const std::vector<generator::column_move>& moves) {
     const auto range = [](int first, int columns) {
         return columns == 1 ? fmt::format("chi[{}]", first) : fmt::format("chi[{}..{}]", first, first + columns - 1);
     };
-    rows result;
+    table_rows result;
     for (const generator::column_move& move : moves) {
         result.push_back({move.columns == 1 ? move.first : move.first + " .. " + move.last,
                           range(move.before, move.columns), range(move.after, move.columns)});
@@ -204,11 +204,11 @@ rows column_rows(const std::vector<generator::column_move>& moves) {
     return result;
 }
 
-rows operation_rows(const std::vector<generator::operations_change>& changes) {
+table_rows operation_rows(const std::vector<generator::operations_change>& changes) {
     const auto text = [](const operation_count& count, const char* form) {
         return fmt::format(fmt::runtime(form), count.mul, count.add, count.div);
     };
-    rows result;
+    table_rows result;
     for (const generator::operations_change& change : changes) {
         const operation_count& old = change.before;
         const operation_count& now = change.after;
@@ -221,7 +221,7 @@ rows operation_rows(const std::vector<generator::operations_change>& changes) {
     return result;
 }
 
-rows largest_rows(const model_comparison& comparison) {
+table_rows largest_rows(const model_comparison& comparison) {
     if (!comparison.torques || comparison.torques->verdict == torque_verdict::same) {
         return {};
     }
@@ -281,7 +281,7 @@ diff_report report(const model_comparison& comparison) {
         {"base parameters regrouped", {"name", "old", "new"}, regrouping_rows(difference.regrouped)},
         {"operations",
          {"function", "old", "new", "difference"},
-         operations_changed(difference) ? operation_rows(difference.operations) : rows{}},
+         operations_changed(difference) ? operation_rows(difference.operations) : table_rows{}},
         {"regressor columns moved", {"base parameters", "old", "new"}, column_rows(difference.columns), true},
         {"standard parameters added",
          {"name", "moves the torque of"},

@@ -7,7 +7,7 @@ namespace idim::generator {
 
 namespace {
 
-constexpr int none = -1;
+constexpr int no_axis = -1;
 
 bool are_parallel(const decimal_vector& a, const decimal_vector& b) {
     return a.cross(b).norm() < geometric_tolerance;
@@ -17,12 +17,12 @@ class frame_placer {
   public:
     explicit frame_placer(const std::vector<moving_axis>& axes)
         : axes_(axes),
-          successor_(axes.size(), none),
+          successor_(axes.size(), no_axis),
           is_wrist_(axes.size(), false),
           origin_(axes.size()),
           frames_(axes.size()) {
         for (std::size_t k = axes.size(); k-- > 0;) {
-            if (axes[k].antecedent != none) {
+            if (axes[k].antecedent != no_axis) {
                 successor_[at(axes[k].antecedent)] = static_cast<int>(k);
             }
         }
@@ -30,7 +30,7 @@ class frame_placer {
 
     std::vector<axis_frame> run() {
         for (std::size_t k = axes_.size(); k-- > 0;) {
-            if (successor_[k] != none) {
+            if (successor_[k] != no_axis) {
                 place_inward(k, at(successor_[k]));
             }
         }
@@ -47,7 +47,7 @@ class frame_placer {
 
     /// No axis inward turns what is along the axis (revolute), or anything (prismatic): such offsets cost nothing.
     bool is_steady(std::size_t k) const {
-        for (int a = axes_[k].antecedent; a != none; a = axes_[at(a)].antecedent) {
+        for (int a = axes_[k].antecedent; a != no_axis; a = axes_[at(a)].antecedent) {
             if (!is_prismatic(at(a)) &&
                 (is_prismatic(k) || !are_parallel(axes_[at(a)].direction, axes_[k].direction))) {
                 return false;
@@ -79,13 +79,13 @@ class frame_placer {
 
     bool follows_parallel(std::size_t k) const {
         const int before = axes_[k].antecedent;
-        return before != none && !is_prismatic(at(before)) &&
+        return before != no_axis && !is_prismatic(at(before)) &&
                are_parallel(axes_[at(before)].direction, axes_[k].direction);
     }
 
     /// Axes k and next meet in `point`; if all axes outward do, it is the origin of them all.
     void join_wrist(std::size_t k, std::size_t next, const decimal_vector& point) {
-        if (successor_[next] == none || (is_wrist_[next] && (point - *origin_[next]).norm() < geometric_tolerance)) {
+        if (successor_[next] == no_axis || (is_wrist_[next] && (point - *origin_[next]).norm() < geometric_tolerance)) {
             origin_[k] = origin_[next] = point;
             is_wrist_[k] = is_wrist_[next] = true;
         }
@@ -99,7 +99,7 @@ class frame_placer {
 
     /// What is open yet, and x: the antecedent's frame is complete.
     void place_outward(std::size_t k) {
-        const axis_frame antecedent = axes_[k].antecedent == none ? axis_frame{} : frames_[at(axes_[k].antecedent)];
+        const axis_frame antecedent = axes_[k].antecedent == no_axis ? axis_frame{} : frames_[at(axes_[k].antecedent)];
         if (!origin_[k]) {
             origin_[k] = is_prismatic(k) ? prismatic_origin(k, antecedent) : foot_on(line(k), antecedent.axis());
         }
@@ -110,7 +110,7 @@ class frame_placer {
     /// On the axis laid through the antecedent's origin, or beside it: where the successor's normal starts.
     decimal_vector prismatic_origin(std::size_t k, const axis_frame& antecedent) const {
         spatial_line axis = {antecedent.origin, axes_[k].direction};
-        if (successor_[k] == none) {
+        if (successor_[k] == no_axis) {
             return axis.point;
         }
         const std::size_t next = at(successor_[k]);
@@ -132,7 +132,7 @@ class frame_placer {
 
     /// The next origin outward that is decided, beyond prismatic axes.
     std::optional<decimal_vector> target_beyond(std::size_t k) const {
-        while (is_prismatic(k) && !origin_[k] && successor_[k] != none) {
+        while (is_prismatic(k) && !origin_[k] && successor_[k] != no_axis) {
             k = at(successor_[k]);
         }
         return origin_[k];
@@ -143,7 +143,7 @@ class frame_placer {
     void turn_to_successor(std::size_t k) {
         axis_frame& frame = frames_[k];
         decimal_vector normal = decimal_vector::Zero();
-        for (int next = successor_[k]; next != none && normal.isZero(); next = successor_[at(next)]) {
+        for (int next = successor_[k]; next != no_axis && normal.isZero(); next = successor_[at(next)]) {
             const bool is_laid_through = !origin_[at(next)] && is_prismatic(at(next));
             const spatial_line axis =
                 is_laid_through ? spatial_line{frame.origin, axes_[at(next)].direction} : line(at(next));

@@ -16,11 +16,11 @@ namespace {
 constexpr double perturbation = 1e-3;
 constexpr int most_halvings = 8;
 
-using positions = std::vector<std::vector<Eigen::VectorXd>>;  ///< [block][joint]
+using position_blocks = std::vector<std::vector<Eigen::VectorXd>>;  ///< [block][joint]
 
 /// Filtered, decimated positions on the rows.
-positions positions_of(const loop_simulator& simulator, const std::vector<filtered_samples>& logs) {
-    positions result;
+position_blocks positions_of(const loop_simulator& simulator, const std::vector<filtered_samples>& logs) {
+    position_blocks result;
     for (std::size_t i = 0; i < logs.size(); ++i) {
         const Eigen::MatrixXd q = decimate(logs[i].q, simulator.experiment().filter.decimation);
         const row_selection& kept = simulator.rows().blocks[i].kept;
@@ -54,13 +54,13 @@ Eigen::VectorXd difference_steps(const observation& rows) {
 struct search_point {
     Eigen::VectorXd chi;
     std::vector<filtered_samples> motions;
-    positions q;
+    position_blocks q;
 };
 
 /// Rows of the linearised problem: J chi = q_measured - q_simulated + J chi_k, J the sensitivities.
 class linearised_positions {
   public:
-    linearised_positions(const loop_simulator& simulator, const positions& measured)
+    linearised_positions(const loop_simulator& simulator, const position_blocks& measured)
         : simulator_(simulator), measured_(measured), steps_(difference_steps(simulator.rows())) {}
 
     /// Empty, with the reason in `failure`, if a parameter can be moved neither up nor down.
@@ -95,8 +95,8 @@ class linearised_positions {
     }
 
   private:
-    static void fill_column(observation& rows, Eigen::Index column, const positions& moved, const positions& from,
-                            double step) {
+    static void fill_column(observation& rows, Eigen::Index column, const position_blocks& moved,
+                            const position_blocks& from, double step) {
         for (std::size_t i = 0; i < rows.blocks.size(); ++i) {
             for (std::size_t j = 0; j < rows.blocks[i].W.size(); ++j) {
                 rows.blocks[i].W[j].col(column) = (moved[i][j] - from[i][j]) / step;
@@ -105,12 +105,12 @@ class linearised_positions {
     }
 
     const loop_simulator& simulator_;
-    const positions& measured_;
+    const position_blocks& measured_;
     Eigen::VectorXd steps_;
 };
 
 /// sum_j w_j^2 |q_j - q_sj|^2.
-double misfit(const positions& measured, const positions& simulated, const std::vector<double>& weight) {
+double misfit(const position_blocks& measured, const position_blocks& simulated, const std::vector<double>& weight) {
     double sum = 0.0;
     for (std::size_t i = 0; i < measured.size(); ++i) {
         for (std::size_t j = 0; j < weight.size(); ++j) {
@@ -163,7 +163,7 @@ class position_search {
             failure_ = motions.failure;
             return false;
         }
-        positions q = positions_of(simulator_, motions.logs);
+        position_blocks q = positions_of(simulator_, motions.logs);
         point = {chi, std::move(motions.logs), std::move(q)};
         return true;
     }
@@ -220,7 +220,7 @@ class position_search {
 
     const loop_simulator& simulator_;
     const loop_options& options_;
-    positions measured_;
+    position_blocks measured_;
     linearised_positions linear_;
     std::vector<iteration> steps_;
     std::string failure_;
