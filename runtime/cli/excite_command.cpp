@@ -3,8 +3,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <csignal>
-#include <ctime>
 
 #include "description/robot_description.hpp"
 #include "excitation_limits.hpp"
@@ -12,6 +10,7 @@
 #include "idim/excitation_search.hpp"
 #include "idim/input_error.hpp"
 #include "idim/multisine.hpp"
+#include "interrupt_watch.hpp"
 
 namespace idim::cli {
 
@@ -34,37 +33,6 @@ struct excite_options {
     std::string json_file;
 };
 
-volatile std::sig_atomic_t interrupted = 0;
-volatile std::time_t first_interrupt = 0;
-
-/// Notes the first interrupt; a later one ends the command. What comes within a second or two is the same one: a
-/// process and its group may each be sent it.
-void note_interrupt(int signal) {
-    if (interrupted == 0) {
-        interrupted = 1;
-        first_interrupt = std::time(nullptr);
-    } else if (std::time(nullptr) > first_interrupt + 1) {
-        std::signal(signal, SIG_DFL);
-        std::raise(signal);
-    }
-}
-
-/// While it lives interrupts are noted.
-class interrupt_watch {
-  public:
-    interrupt_watch() {
-        struct sigaction action {};
-        action.sa_handler = note_interrupt;
-        sigaction(SIGINT, &action, &before_);
-    }
-    ~interrupt_watch() { sigaction(SIGINT, &before_, nullptr); }
-    interrupt_watch(const interrupt_watch&) = delete;
-    interrupt_watch& operator=(const interrupt_watch&) = delete;
-
-  private:
-    struct sigaction before_ {};
-};
-
 /// A line on standard error at most every two seconds, and what the user says by an interrupt.
 class progress_line {
   public:
@@ -80,7 +48,7 @@ class progress_line {
             fmt::print(stderr, "idim: start {} of {}, {} evaluations, {:.0f} s: {}\n", progress.start, progress.starts,
                        progress.evaluations, progress.seconds, best);
         }
-        return interrupted == 0;
+        return !interrupt_watch::interrupted();
     }
 
   private:

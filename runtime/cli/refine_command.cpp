@@ -5,10 +5,12 @@
 #include <filesystem>
 #include <memory>
 
+#include "earlier_steps.hpp"
 #include "emit/model_folder.hpp"
 #include "idim/input_error.hpp"
 #include "idim/log_parameters.hpp"
 #include "idim/unified_diff.hpp"
+#include "interrupt_watch.hpp"
 #include "proposed_effects.hpp"
 #include "refine_report.hpp"
 #include "refined_description.hpp"
@@ -24,6 +26,7 @@ namespace fs = std::filesystem;
 struct refine_options : trace_options {
     std::string folder;
     int most_effects = 12;
+    bool resume = false;
 };
 
 least_squares_method method_of(const std::string& name) {
@@ -158,6 +161,9 @@ json refine_json(const refine_outcome& outcome, const refine_options& options) {
                     {"method", options.method},
                     {"before", to_json(outcome.errors_before, outcome.before.robot)},
                     {"after", to_json(outcome.errors_after, outcome.before.robot)}};
+    if (outcome.trace.interrupted) {
+        content["interrupted"] = true;
+    }
     content.update(to_json(outcome.trace, outcome.before));
     return content;
 }
@@ -189,6 +195,9 @@ void print_outcome(const refine_outcome& outcome, const refine_options& options)
     fmt::print("held back, before and after:\n");
     print(outcome.errors_before.validation, outcome.before.robot);
     print(outcome.errors_after.validation, outcome.before.robot);
+    if (outcome.trace.interrupted) {
+        fmt::print("interrupted: more may be missing; the same command with --resume goes on from here\n");
+    }
     fmt::print("in {}: robot.yaml, model/, model.diff, before.json, after.json, refine.json, report.md\n",
                options.folder);
 }
@@ -199,7 +208,15 @@ int run(const refine_options& options) {
     trace_input input = before.input();
     input.most_effects = options.most_effects;
     input.progress = say;
+    if (options.resume) {
+        input.found = read_steps((fs::path(options.folder) / "refine.json").string(), before);
+    }
+    const interrupt_watch watch;
+    input.go_on = [] { return !interrupt_watch::interrupted(); };
     effect_trace trace = trace_effects(input);
+    if (trace.interrupted && trace.steps.empty()) {
+        throw data_error("interrupted before anything was found: nothing is written");
+    }
     fs::create_directories(options.folder);
     std::unique_ptr<const rebuilt_robot> last =
         rebuild_what_helps(options, before, first.errors.validation, trace.steps);
@@ -237,6 +254,8 @@ void add_refine_command(CLI::App& app, action& chosen) {
     command->add_option("--method", options->method, "how the errors before and after are identified: ols, wls or irls")
         ->check(CLI::IsMember({"ols", "wls", "irls"}));
     command->add_option("--most", options->most_effects, "effects added at the most")->check(CLI::Range(0, 100));
+    command->add_flag("--resume", options->resume,
+                      "go on from the effects in the output folder's refine.json, found in the same logs");
     command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

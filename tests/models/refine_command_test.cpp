@@ -92,23 +92,54 @@ class RefineCommand : public ::testing::Test {
   protected:
     json refine(const undeclared& missing, const std::string& gravity = "[0, 0, 0]",
                 const std::string& more_effects = "") {
-        const std::string robot =
-            folder_.write("arm.yaml", "name: arm\ngravity: " + gravity +
-                                          "   # flat\njoints:\n"
-                                          "  - {name: j1, theta: q}\n  - {name: j2, d: 0.5, theta: q}\n"
-                                          "effects: [viscous_friction, coulomb_friction" +
-                                          more_effects + "]   # both joints\n");
-        const std::string fitted = folder_.write("ident.csv", log_text(0, 1, missing));
-        const std::string other = folder_.write("valid.csv", log_text(1, 2, missing));
-        const command_result answer =
-            run_idim({"refine", robot, fitted, "--validation", other, "-o", output(), "--json", output() + ".json"});
+        write_files(missing, gravity, more_effects);
+        const command_result answer = run_idim(words_with({"--json", output() + ".json"}));
         EXPECT_EQ(answer.status, 0) << answer.err;
         return json::parse(read_text(output() + ".json"));
     }
+
+    void write_files(const undeclared& missing, const std::string& gravity = "[0, 0, 0]",
+                     const std::string& more_effects = "") {
+        robot_ = folder_.write("arm.yaml", "name: arm\ngravity: " + gravity +
+                                               "   # flat\njoints:\n"
+                                               "  - {name: j1, theta: q}\n  - {name: j2, d: 0.5, theta: q}\n"
+                                               "effects: [viscous_friction, coulomb_friction" +
+                                               more_effects + "]   # both joints\n");
+        fitted_ = folder_.write("ident.csv", log_text(0, 1, missing));
+        other_ = folder_.write("valid.csv", log_text(1, 2, missing));
+    }
+
+    std::vector<std::string> words_with(const std::vector<std::string>& more) const {
+        std::vector<std::string> words = {"refine", robot_, fitted_, "--validation", other_, "-o", output()};
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
+    }
+
+    /// What the command leaves in its folder.
+    json run(const std::vector<std::string>& more) const {
+        const command_result answer = run_idim(words_with(more));
+        EXPECT_EQ(answer.status, 0) << answer.err;
+        return json::parse(read_text(output() + "/refine.json"));
+    }
+
     std::string output() const { return (folder_.path() / "refined").string(); }
 
     temporary_folder folder_;
+    std::string robot_, fitted_, other_;
 };
+
+/// A spring at joint 2 and a ripple at joint 1.
+std::array<double, 2> spring_and_ripple(const instant& s) {
+    return {0.5 * std::cos(7.0 * s.q[0]), 0.04 * s.q[1] + 0.01};
+}
+
+std::set<std::string> effects_of(const json& result) {
+    std::set<std::string> names;
+    for (const json& step : result["steps"]) {
+        names.insert(std::string(step["effect"]) + " " + std::string(step["joints"][0]));
+    }
+    return names;
+}
 
 /// One effect, at the right place, that lowers the error on the log it was not fitted to.
 void expect_one(const json& result, const std::string& effect, const json& joints) {
@@ -212,6 +243,60 @@ TEST_F(RefineCommand, LeavesADescriptionAndCodeThatReproduceTheResult) {
     EXPECT_EQ(json::parse(errors.out)["relative_error"], result["after"]["validation"]["relative_error"]);
     EXPECT_NE(read_text(output() + "/model.diff").find("+"), std::string::npos);
     EXPECT_NE(read_text(output() + "/report.md").find("spring at j2"), std::string::npos);
+}
+
+// Shapes are searched again from where they stand: what remains of the way there is far below the noise.
+TEST_F(RefineCommand, GoesOnFromWhatAnEarlierRunFound) {
+    const json whole = refine(spring_and_ripple);
+    ASSERT_EQ(effects_of(whole), (std::set<std::string>{"spring j2", "torque_ripple j1"}));
+    EXPECT_EQ(run({"--most", "1"})["steps"].size(), 1U);
+    const json resumed = run({"--resume"});
+    EXPECT_EQ(effects_of(resumed), effects_of(whole));
+    EXPECT_EQ(resumed["steps"][0]["p_value"], whole["steps"][0]["p_value"]);
+    EXPECT_EQ(resumed["before"], whole["before"]);
+    EXPECT_NEAR(resumed["after"]["validation"]["relative_error"], whole["after"]["validation"]["relative_error"],
+                1e-3 * double(whole["after"]["validation"]["relative_error"]));
+    const json again = run({"--resume"});
+    EXPECT_EQ(effects_of(again), effects_of(whole));
+}
+
+TEST_F(RefineCommand, AnInterruptedRunLeavesWhatItFoundAndCanBeResumed) {
+    write_files(spring_and_ripple);
+    std::vector<std::string> words = {
+        "bash", "-c",
+        // The first effect that is found is the sign to interrupt: the second is being looked for then.
+        "exec 3< <(\"$@\" 2>&1 >/dev/null & echo $!; wait $!; echo status $?); read -r pid <&3\n"
+        "while read -r line <&3; do case $line in *': p '*) kill -INT \"$pid\";; 'status '*) exit \"${line#* }\";; "
+        "esac; done",
+        "bash", IDIM_COMMAND};
+    const std::vector<std::string> rest = words_with({});
+    words.insert(words.end(), rest.begin(), rest.end());
+    const command_result answer = run_program(words);
+    ASSERT_EQ(answer.status, 0) << answer.err;
+    const json interrupted = json::parse(read_text(output() + "/refine.json"));
+    EXPECT_TRUE(interrupted.value("interrupted", false));
+    EXPECT_EQ(interrupted["steps"].size(), 1U);
+    const json resumed = run({"--resume"});
+    EXPECT_FALSE(resumed.contains("interrupted"));
+    EXPECT_EQ(effects_of(resumed), (std::set<std::string>{"spring j2", "torque_ripple j1"}));
+}
+
+TEST_F(RefineCommand, ResumesNothingThatIsNotOfThisRobotAndTheseRows) {
+    write_files(spring_and_ripple);
+    const command_result missing = run_idim(words_with({"--resume"}));
+    EXPECT_EQ(missing.status, 2);
+    EXPECT_NE(missing.err.find("refine.json: cannot be read, expected what refine wrote before"), std::string::npos)
+        << missing.err;
+    json found = run({"--most", "1"});
+    const command_result filtered = run_idim(words_with({"--resume", "--cutoff", "5", "--decimation", "10"}));
+    EXPECT_EQ(filtered.status, 2);
+    EXPECT_NE(filtered.err.find("refine.json: band: made from rows of another band"), std::string::npos)
+        << filtered.err;
+    found["steps"][0]["joints"] = {"elbow"};
+    folder_.write("refined/refine.json", found.dump());
+    const command_result renamed = run_idim(words_with({"--resume"}));
+    EXPECT_EQ(renamed.status, 2);
+    EXPECT_NE(renamed.err.find("the robot has no joint \"elbow\""), std::string::npos) << renamed.err;
 }
 
 TEST_F(RefineCommand, DiagnosisNamesTheEffectAndAddsNothing) {

@@ -107,8 +107,9 @@ struct effect_trace {
     std::vector<hidden_effect> not_identifiable;  ///< within the span of the model: no residual can show them
     std::vector<unsupported_term> unsupported;    ///< declared, least significant first
     std::vector<unexplained_structure> unexplained;
-    double alignment = 0.0;  ///< torque behind the motion by this part of a sample, taken off [s]
-    double tests = 0.0;      ///< candidates and shapes tried in the last round
+    double alignment = 0.0;    ///< torque behind the motion by this part of a sample, taken off [s]
+    double tests = 0.0;        ///< candidates and shapes tried in the last round
+    bool interrupted = false;  ///< ended by trace_input::go_on: more may be missing
 };
 
 /// The model of the same robot with gravity turned, its standard parameters the same.
@@ -129,14 +130,19 @@ struct trace_input {
     std::vector<effect_place> declared;                ///< effects the description has already
     std::vector<effect_place> only;                    ///< tried, and nothing else; empty: everything
     int most_effects = 12;                             ///< 0: only look
+    std::vector<trace_step> found;                     ///< steps of an earlier trace of the same data, to go on from
     std::function<void(const std::string&)> progress;  ///< one line for the user; may be empty
+    /// Asked now and then by any thread; false ends the trace with the steps it has. May be empty.
+    std::function<bool()> go_on;
 };
 
 /// Finds what the model lacks: looks at the residual of weighted least squares, tries every effect of the catalogue at
 /// every joint, adds the one that gains most where it is significant (partial F on effective rows, corrected for
 /// everything tried), gains on data it was not fitted to, away from reversals too, and is plausible; then again, terms
 /// that others made needless taken out, until nothing passes. METHODS.md has the equations; the tests of acceptance
-/// stand in effect_tracer. Throws data_error where the rows are too few.
+/// stand in effect_tracer. Steps of an earlier trace come first, fitted again, unless they have become needless; those
+/// of effects that are not in the catalogue, or tried nowhere, are left out. Throws data_error where the rows are too
+/// few.
 effect_trace trace_effects(const trace_input& input);
 
 /// Cuts the last `share` of a log off to be held back, `gap` seconds left out between: where no log was given for

@@ -98,16 +98,18 @@ class tracer {
     effect_trace run() {
         trace_fit fit = fit_with_own_noise(logs_, {});
         result_.before = {errors_of(fit, false), errors_of(fit, true)};
-        fit = aligned(std::move(fit));
+        fit = with_steps_found(aligned(std::move(fit)));
         do {
             fit = with_all_that_pass(std::move(fit));
-        } while (input_.only.empty() && takes_suspects_out(fit));
+        } while (input_.only.empty() && !result_.interrupted && takes_suspects_out(fit));
         if (input_.most_effects == 0) {
             look(fit);
         }
-        find_structure(fit);
+        if (!result_.interrupted) {
+            find_structure(fit);
+            result_.unsupported = find_unsupported(fit, input_);
+        }
         result_.after = {errors_of(fit, false), errors_of(fit, true)};
-        result_.unsupported = find_unsupported(fit, input_);
         fill_parameters(fit);
         return std::move(result_);
     }
@@ -174,10 +176,16 @@ class tracer {
         return effects;
     }
 
-    effect_survey look(const trace_fit& fit) {
+    /// Nothing where the user interrupts.
+    std::optional<effect_survey> look(const trace_fit& fit) {
         use_torques_of(fit);
         const std::vector<candidate_pointer> candidates = list_candidates(input_, fit.terms(), fit.chi());
-        effect_survey all = survey(fit, candidates);
+        std::optional<effect_survey> surveyed = survey(fit, candidates, input_.go_on);
+        if (!surveyed) {
+            result_.interrupted = true;
+            return std::nullopt;
+        }
+        effect_survey& all = *surveyed;
         result_.tests = all.tests;
         result_.not_identifiable = hidden(all, candidates);
         result_.candidates.clear();
@@ -195,13 +203,17 @@ class tracer {
                                           evidence.f_statistic, evidence.correlation_length, evidence.z_all(),
                                           evidence.z_moving(), std::move(values), tried.objection});
         }
-        return all;
+        return surveyed;
     }
 
     /// The fit with the best candidate that passes, everything fitted again and needless terms taken out; none if there
     /// is no such candidate, or the fit is no better for it.
     std::optional<trace_fit> with_one_more(const trace_fit& fit) {
-        const effect_survey all = look(fit);
+        const std::optional<effect_survey> surveyed = look(fit);
+        if (!surveyed) {
+            return std::nullopt;
+        }
+        const effect_survey& all = *surveyed;
         for (std::size_t i = 0; i < all.candidates.size(); ++i) {
             if (!all.candidates[i].objection.empty()) {
                 continue;
@@ -219,6 +231,46 @@ class tracer {
             return pruned(std::move(with));
         }
         return std::nullopt;
+    }
+
+    /// The term of a step found before, with the step's shape; nothing where no candidate stands there.
+    static std::optional<effect_term> term_of(const trace_step& step,
+                                              const std::vector<candidate_pointer>& candidates) {
+        const auto same = [&](const candidate_pointer& candidate) { return candidate->place() == step.place; };
+        const auto candidate = std::find_if(candidates.begin(), candidates.end(), same);
+        if (candidate == candidates.end()) {
+            return std::nullopt;
+        }
+        std::vector<double> shape;
+        for (const shape_bound& bound : (*candidate)->shape) {
+            const auto written = [&](const effect_parameter& parameter) { return parameter.name == bound.name; };
+            const auto found = std::find_if(step.parameters.begin(), step.parameters.end(), written);
+            if (found == step.parameters.end()) {
+                return std::nullopt;
+            }
+            shape.push_back(found->value);
+        }
+        return effect_term{*candidate,
+                           Eigen::Map<Eigen::VectorXd>(shape.data(), static_cast<Eigen::Index>(shape.size()))};
+    }
+
+    /// The fit with the terms of an earlier trace.
+    trace_fit with_steps_found(trace_fit fit) {
+        if (input_.found.empty()) {
+            return fit;
+        }
+        const std::vector<candidate_pointer> candidates = list_candidates(input_, fit.terms(), fit.chi());
+        std::vector<effect_term> terms = fit.terms();
+        for (const trace_step& step : input_.found) {
+            if (std::optional<effect_term> term = term_of(step, candidates)) {
+                terms.push_back(std::move(*term));
+                result_.steps.push_back(step);
+            } else {
+                say(fmt::format("{} at joint {} is looked for again", step.place.effect,
+                                fmt::join(ordinals(step.place.joints), ", ")));
+            }
+        }
+        return pruned(settled(fit_with_own_noise(logs_, terms, &fit.noise())));
     }
 
     trace_fit with_all_that_pass(trace_fit fit) {

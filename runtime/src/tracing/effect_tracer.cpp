@@ -1,6 +1,7 @@
 #include "effect_tracer.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <functional>
 
@@ -184,11 +185,22 @@ trace_fit without(const trace_fit& fit, std::size_t term) {
 
 }  // namespace
 
-effect_survey survey(const trace_fit& fit, const std::vector<candidate_pointer>& candidates) {
+std::optional<effect_survey> survey(const trace_fit& fit, const std::vector<candidate_pointer>& candidates,
+                                    const std::function<bool()>& go_on) {
     effect_survey result;
     std::vector<effect_evidence> found(candidates.size());
-    for_each_on_all_cores(candidates.size(),
-                          [&](std::size_t i) { found[i] = search_shape(fit, candidates[i], worth_a_look); });
+    std::atomic<bool> stopped = false;
+    for_each_on_all_cores(candidates.size(), [&](std::size_t i) {
+        if (go_on && !go_on()) {
+            stopped = true;
+        }
+        if (!stopped) {
+            found[i] = search_shape(fit, candidates[i], worth_a_look);
+        }
+    });
+    if (stopped) {
+        return std::nullopt;
+    }
     for (const effect_evidence& evidence : found) {
         result.tests += evidence.shapes_tried;
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,8 +31,9 @@ struct effect_survey {
     double tests = 0.0;                         ///< candidates and shapes tried
 };
 
-/// Tries every candidate against the residual of `fit`.
-effect_survey survey(const trace_fit& fit, const std::vector<candidate_pointer>& candidates);
+/// Tries every candidate against the residual of `fit`; nothing where `go_on`, which may be empty, said no meanwhile.
+std::optional<effect_survey> survey(const trace_fit& fit, const std::vector<candidate_pointer>& candidates,
+                                    const std::function<bool()>& go_on = {});
 
 /// The candidates that the data cannot tell from the accepted one: what they predict outside the span of the model
 /// correlates, and neither fits better by more than chance.
