@@ -29,8 +29,6 @@ class BodyPrinter : public testing::Test {
     signed_node a = leaf("q1", 0), b = leaf("q2", 1), c = leaf("q3", 2);
 };
 
-}  // namespace
-
 TEST_F(BodyPrinter, ParenthesesKeepTheOrderOfOperations) {
     graph.output("y", 0, graph.multiply(graph.add(a, b), c));
     graph.output("y", 1, graph.divide(a, graph.multiply(b, c)));
@@ -96,5 +94,7 @@ TEST_F(BodyPrinter, TheSameGraphPrintsTheSameText) {
     graph.output("y", 0, graph.multiply(graph.add(a, b), graph.function(function_kind::sin, c)));
     EXPECT_EQ(printed(), printed());
 }
+
+}  // namespace
 
 }  // namespace idim::generator

@@ -14,7 +14,7 @@ namespace {
 const std::string effects_folder = std::string(IDIM_SOURCE_DIR) + "/templates/effects";
 
 /// What the reader says about `text` in friction.yaml, without the folder.
-std::string error_of(const std::string& text) {
+std::string error_of_effect(const std::string& text) {
     const test::temporary_folder folder;
     try {
         read_effect(folder.write("friction.yaml", text));
@@ -30,8 +30,6 @@ std::string error_of(const std::string& text) {
 std::string friction(const std::string& rest) {
     return "effect: friction\nper: joint\ntorque: F*qd\n" + rest;
 }
-
-}  // namespace
 
 TEST(EffectDescription, EveryEffectOfTheRepositoryIsReadAndSaysWhatItIsAbout) {
     int effects = 0;
@@ -89,53 +87,53 @@ TEST(EffectDescription, EveryFieldOfTheFormatIsRead) {
 }
 
 TEST(EffectDescription, MissingUnknownAndWrongFieldsAreRefused) {
-    EXPECT_EQ(error_of("per: joint\n"), "friction.yaml:1: effect: missing, expected the name of the effect");
-    EXPECT_EQ(error_of("effect: stiction\nper: joint\n"),
+    EXPECT_EQ(error_of_effect("per: joint\n"), "friction.yaml:1: effect: missing, expected the name of the effect");
+    EXPECT_EQ(error_of_effect("effect: stiction\nper: joint\n"),
               "friction.yaml:1: effect: expected \"friction\", the name of the file, got \"stiction\"");
-    EXPECT_EQ(error_of("effect: friction\ntorque: F\n"),
+    EXPECT_EQ(error_of_effect("effect: friction\ntorque: F\n"),
               "friction.yaml:1: per: missing, expected joint, pair or robot");
-    EXPECT_EQ(error_of("effect: friction\nper: link\n"),
+    EXPECT_EQ(error_of_effect("effect: friction\nper: link\n"),
               "friction.yaml:2: per: expected joint, pair or robot, got \"link\"");
-    EXPECT_EQ(error_of("effect: friction\nper: robot\n"),
+    EXPECT_EQ(error_of_effect("effect: friction\nper: robot\n"),
               "friction.yaml:1: torque: missing, expected an expression of the signals and coefficients");
-    EXPECT_EQ(error_of(friction("")), "friction.yaml:1: linear: missing, expected at least one coefficient");
-    EXPECT_EQ(error_of(friction("sort: x\n")),
+    EXPECT_EQ(error_of_effect(friction("")), "friction.yaml:1: linear: missing, expected at least one coefficient");
+    EXPECT_EQ(error_of_effect(friction("sort: x\n")),
               "friction.yaml:4: unknown key \"sort\", expected one of effect, per, acts_on, kind, torque, "
               "torque_without_temperature, per_log, state, linear, shape, about, proposed");
-    EXPECT_EQ(error_of(friction("kind: x\n")),
+    EXPECT_EQ(error_of_effect(friction("kind: x\n")),
               "friction.yaml:4: kind: expected expression, delay, gain, elasticity, tilt or payload, got \"x\"");
-    EXPECT_EQ(error_of(friction("linear: {F: 1}\n")),
+    EXPECT_EQ(error_of_effect(friction("linear: {F: 1}\n")),
               "friction.yaml:4: linear.F: expected a map with keys among unit, min, got \"1\"");
-    EXPECT_EQ(error_of(friction("linear: {F: {min: 0}}\n")),
+    EXPECT_EQ(error_of_effect(friction("linear: {F: {min: 0}}\n")),
               "friction.yaml:4: linear.F.unit: missing, expected a unit such as N*m, or 1");
-    EXPECT_EQ(error_of(friction("linear: {F: {unit: 'N*/ x'}}\n")),
+    EXPECT_EQ(error_of_effect(friction("linear: {F: {unit: 'N*/ x'}}\n")),
               "friction.yaml:4: linear.F.unit: expected a unit such as N*m, or 1, got \"N*/ x\"");
-    EXPECT_EQ(error_of(friction("linear: {F: {unit: N*m, min: low}}\n")),
+    EXPECT_EQ(error_of_effect(friction("linear: {F: {unit: N*m, min: low}}\n")),
               "friction.yaml:4: linear.F.min: expected a number, got \"low\"");
-    EXPECT_EQ(error_of(friction("linear: {F: {unit: N*m}}\nabout: [x]\n")),
+    EXPECT_EQ(error_of_effect(friction("linear: {F: {unit: N*m}}\nabout: [x]\n")),
               "friction.yaml:5: about: expected a sentence, got a list");
 }
 
 TEST(EffectDescription, ShapeCoefficientsHaveARange) {
-    EXPECT_EQ(error_of(friction("shape: {k: {unit: 1}}\n")),
+    EXPECT_EQ(error_of_effect(friction("shape: {k: {unit: 1}}\n")),
               "friction.yaml:4: shape.k.range: missing, expected a list [lowest, highest]");
-    EXPECT_EQ(error_of(friction("shape: {k: {unit: 1, range: [1, 1]}}\n")),
+    EXPECT_EQ(error_of_effect(friction("shape: {k: {unit: 1, range: [1, 1]}}\n")),
               "friction.yaml:4: shape.k.range: expected [lowest, highest] with the lowest first");
-    EXPECT_EQ(error_of(friction("shape: {k: {unit: 1, range: [1, 2, 3]}}\n")),
+    EXPECT_EQ(error_of_effect(friction("shape: {k: {unit: 1, range: [1, 2, 3]}}\n")),
               "friction.yaml:4: shape.k.range: expected a list [lowest, highest], got 3 entries");
-    EXPECT_EQ(error_of(friction("shape: {k: {unit: 1, range: [0, .inf]}}\n")),
+    EXPECT_EQ(error_of_effect(friction("shape: {k: {unit: 1, range: [0, .inf]}}\n")),
               "friction.yaml:4: shape.k.range[2]: expected a finite number, got \".inf\"");
 }
 
 TEST(EffectDescription, CoefficientsDoNotTakeNamesThatMeanSomethingElse) {
-    EXPECT_EQ(error_of(friction("linear: {qd: {unit: 1}}\n")),
+    EXPECT_EQ(error_of_effect(friction("linear: {qd: {unit: 1}}\n")),
               "friction.yaml:4: linear.qd: \"qd\" has a meaning in expressions, expected another name");
-    EXPECT_EQ(error_of(friction("linear: {Ia1: {unit: 1}}\n")),
+    EXPECT_EQ(error_of_effect(friction("linear: {Ia1: {unit: 1}}\n")),
               "friction.yaml:4: linear.Ia1: \"Ia1\" is the name of a signal or parameter of a link, expected another "
               "name");
-    EXPECT_EQ(error_of(friction("linear: {F: {unit: 1}}\nshape: {F: {unit: 1, range: [0, 1]}}\n")),
+    EXPECT_EQ(error_of_effect(friction("linear: {F: {unit: 1}}\nshape: {F: {unit: 1, range: [0, 1]}}\n")),
               "friction.yaml:5: shape.F: \"F\" is already a linear coefficient");
-    EXPECT_EQ(error_of(friction("linear: {'F;': {unit: 1}}\n")),
+    EXPECT_EQ(error_of_effect(friction("linear: {'F;': {unit: 1}}\n")),
               "friction.yaml:4: linear.\"F;\": expected a name of letters, digits and underscores, a letter first, at "
               "most 64 long, got \"F;\"");
 }
@@ -178,5 +176,7 @@ TEST_F(FindEffect, NamesTheLineOfTheRobotAndTheFoldersSearched) {
                                     "/effects, " + library_);
     }
 }
+
+}  // namespace
 
 }  // namespace idim::generator

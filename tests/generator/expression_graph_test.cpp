@@ -33,8 +33,6 @@ class ExpressionGraph : public testing::Test {
     signed_node a = leaf("a"), b = leaf("b"), c = leaf("c");
 };
 
-}  // namespace
-
 TEST_F(ExpressionGraph, FindsSumsAndProductsWhateverTheOrderOfOperands) {
     EXPECT_EQ(graph.add(a, b), graph.add(b, a));
     EXPECT_EQ(graph.multiply(a, b), graph.multiply(b, a));
@@ -227,5 +225,7 @@ TEST(Rational, DecimalTextReadsBackAsTheNearestDouble) {
     EXPECT_EQ(to_fraction(fraction(-42, 200)), "-21/100");
     EXPECT_EQ(to_double(fraction(1, 3)), 1.0 / 3.0);
 }
+
+}  // namespace
 
 }  // namespace idim::generator

@@ -42,8 +42,6 @@ class ExpressionParser : public testing::Test {
     named_values names = {{"q", q}, {"L", L}};
 };
 
-}  // namespace
-
 TEST_F(ExpressionParser, ReadsDecimalsExactly) {
     EXPECT_EQ(exact("0.1"), "1/10");
     EXPECT_EQ(exact(".5"), "1/2");
@@ -157,5 +155,7 @@ TEST_F(ExpressionParser, IrrationalConstantsHaveMoreDigitsThanADouble) {
     EXPECT_LT(GiNaC::abs(root * root - 2).to_double(), 1e-50);
     EXPECT_EQ(exact("cos(pi/3)"), "1/2");
 }
+
+}  // namespace
 
 }  // namespace idim::generator

@@ -76,8 +76,6 @@ const bad_manifest bad_manifests[] = {
     {"WithAnEffectFromFewerJoints", "/effects/1/from", "[\"j2\"]", "effects.2.from: expected as many joints"},
 };
 
-}  // namespace
-
 TEST(ManifestFile, ReadsBackWhatWasWritten) {
     const std::string text = to_json_text(full_manifest());
     const manifest read = read_manifest(text, "manifest.json");
@@ -137,5 +135,7 @@ TEST_P(BadManifest, IsRefusedNamingTheEntryAndTheWayOut) {
 
 INSTANTIATE_TEST_SUITE_P(ManifestFile, BadManifest, testing::ValuesIn(bad_manifests),
                          [](const testing::TestParamInfo<bad_manifest>& bad) { return std::string(bad.param.name); });
+
+}  // namespace
 
 }  // namespace idim::generator

@@ -8,7 +8,7 @@ namespace idim::generator {
 
 namespace {
 
-using names = std::vector<std::string>;
+using name_list = std::vector<std::string>;
 
 /// A planar arm of two links whose second has a rotor: chi = (ZZ1 + 0.25 M2, ZZ2 + Ia2, Fv1).
 model_summary two_links() {
@@ -28,8 +28,8 @@ model_summary two_links() {
     return model;
 }
 
-names texts(const std::vector<entry_change>& changes) {
-    names result;
+name_list texts(const std::vector<entry_change>& changes) {
+    name_list result;
     for (const entry_change& change : changes) {
         result.push_back(change.what + "|" + change.field + "|" + change.before + "|" + change.after);
     }
@@ -50,7 +50,7 @@ TEST(ModelDifference, NamesTheCoefficientsThatAConstantChanges) {
     after.base[0].coefficients[3] = 0.36;
     const model_difference difference = compare(two_links(), after);
     EXPECT_FALSE(difference.empty());
-    EXPECT_EQ(texts(difference.constants), (names{"L||0.5|0.6", "k|||2"}));
+    EXPECT_EQ(texts(difference.constants), (name_list{"L||0.5|0.6", "k|||2"}));
     ASSERT_EQ(difference.regrouped.size(), 1u);
     EXPECT_EQ(difference.regrouped[0].before.regroups, difference.regrouped[0].after.regroups);
     ASSERT_EQ(difference.regrouped[0].coefficients.size(), 1u);
@@ -64,14 +64,14 @@ TEST(ModelDifference, LoopsAreToldApartByTheJointsTheyDetermine) {
     model_summary before = two_links();
     before.content.loops = {loop};
     EXPECT_EQ(texts(compare(before, two_links()).loops),
-              (names{"j1, j2|assembly|1|", "j1, j2|cut|j2 [L, 0, 0]|", "j1, j2|cut, other side|base [1, 0, 0]|"}));
+              (name_list{"j1, j2|assembly|1|", "j1, j2|cut|j2 [L, 0, 0]|", "j1, j2|cut, other side|base [1, 0, 0]|"}));
     model_summary after = before;
     after.content.loops[0].assembly = "-1";
     after.content.loops[0].cut[1].at[1] = "0.2";
     const model_difference difference = compare(before, after);
     EXPECT_FALSE(difference.empty());
     EXPECT_EQ(texts(difference.loops),
-              (names{"j1, j2|assembly|1|-1", "j1, j2|cut, other side|base [1, 0, 0]|base [1, 0.2, 0]"}));
+              (name_list{"j1, j2|assembly|1|-1", "j1, j2|cut, other side|base [1, 0, 0]|base [1, 0.2, 0]"}));
 }
 
 TEST(ModelDifference, RoundingOfACoefficientIsNoChange) {
@@ -91,7 +91,7 @@ TEST(ModelDifference, AnEffectThatGoesTakesItsParameterAndLeavesTheRest) {
     const model_difference difference = compare(two_links(), after);
     ASSERT_EQ(difference.effects_removed.size(), 1u);
     EXPECT_EQ(difference.effects_removed[0].effect, "rotor_inertia");
-    EXPECT_EQ(difference.standard_dropped, names{"Ia2"});
+    EXPECT_EQ(difference.standard_dropped, name_list{"Ia2"});
     EXPECT_TRUE(difference.base_added.empty() && difference.base_dropped.empty()) << "ZZ2R and ZZ2 both keep ZZ2";
     ASSERT_EQ(difference.regrouped.size(), 1u);
     EXPECT_EQ(difference.regrouped[0].before.name, "ZZ2R");
@@ -109,7 +109,7 @@ TEST(ModelDifference, ColumnsThatMakeRoomMoveTogether) {
     }
     after.base.insert(after.base.begin() + 1, {{"off1", "N*m", "off1"}, "off1", {0.0, 1.0, 0.0, 0.0, 0.0, 0.0}});
     const model_difference difference = compare(two_links(), after);
-    EXPECT_EQ(difference.standard_added, names{"off1"});
+    EXPECT_EQ(difference.standard_added, name_list{"off1"});
     ASSERT_EQ(difference.base_added.size(), 1u);
     EXPECT_EQ(difference.base_added[0].name, "off1");
     EXPECT_TRUE(difference.regrouped.empty());
@@ -139,9 +139,9 @@ TEST(ModelDifference, AnEffectIsNewOnlyWhereItDidNotAct) {
     const model_difference difference = compare(before, after);
     EXPECT_TRUE(difference.effects_removed.empty());
     ASSERT_EQ(difference.effects_added.size(), 1u);
-    EXPECT_EQ(difference.effects_added[0].joints, names{"j2"});
-    EXPECT_EQ(difference.effects_added[0].from, names{"j1"});
-    EXPECT_EQ(texts(difference.effects_changed), names{"coupling at j1 from j2|shape k|1|1.5"});
+    EXPECT_EQ(difference.effects_added[0].joints, name_list{"j2"});
+    EXPECT_EQ(difference.effects_added[0].from, name_list{"j1"});
+    EXPECT_EQ(texts(difference.effects_changed), name_list{"coupling at j1 from j2|shape k|1|1.5"});
 }
 
 TEST(ModelDifference, NamesTheEntriesOfAJointThatChanged) {
@@ -151,8 +151,8 @@ TEST(ModelDifference, NamesTheEntriesOfAJointThatChanged) {
     after.content.joints.push_back({"tool", "fixed", "j2", false, {}, {}, {}, {}, {}});
     after.content.gravity = {"0", "0", "-9.81"};
     const model_difference difference = compare(two_links(), after);
-    EXPECT_EQ(texts(difference.joints), (names{"j2|alpha|0|pi/2", "j2|position limits||[-1, 2]", "tool|||fixed"}));
-    EXPECT_EQ(texts(difference.gravity), names{"gravity||[0, 0, 0]|[0, 0, -9.81]"});
+    EXPECT_EQ(texts(difference.joints), (name_list{"j2|alpha|0|pi/2", "j2|position limits||[-1, 2]", "tool|||fixed"}));
+    EXPECT_EQ(texts(difference.gravity), name_list{"gravity||[0, 0, 0]|[0, 0, -9.81]"});
     EXPECT_EQ(difference.not_comparable, std::nullopt) << "a fixed joint moves no torque to another place";
 }
 

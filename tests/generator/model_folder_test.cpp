@@ -43,8 +43,6 @@ class ModelFolder : public testing::Test {
     test::temporary_folder folder_;
 };
 
-}  // namespace
-
 TEST_F(ModelFolder, IsMadeWithAllFilesAndNothingElse) {
     EXPECT_EQ(write_model(model("a\n", true), path()).size(), 4u);
     EXPECT_EQ(test::read_text(path() + "/a.hpp"), "a\n");
@@ -127,8 +125,6 @@ TEST_F(ModelFolder, APipeInThePlaceOfAFileIsAMissingFile) {
     EXPECT_EQ(found[0].state(), "missing");
 }
 
-namespace {
-
 /// A manifest of this version that lists the named files.
 std::string listing(const std::vector<std::string>& names) {
     manifest content;
@@ -144,8 +140,6 @@ std::string refusal(const std::string& folder) {
     }
     return "read";
 }
-
-}  // namespace
 
 TEST_F(ModelFolder, IsReadBackAsTheManifestListsIt) {
     write_model({{"b.hpp", "b\n"}, {"a.cpp", "a\n"}, {"manifest.json", listing({"b.hpp", "a.cpp"})}}, path());
@@ -183,5 +177,7 @@ TEST_F(ModelFolder, AFileInItsPlaceIsBadInput) {
     folder_.write("deep", "a file\n");
     EXPECT_THROW(write_model(model("a\n", false), path()), input_error);
 }
+
+}  // namespace
 
 }  // namespace idim::generator

@@ -11,11 +11,12 @@ namespace idim::generator {
 
 namespace {
 
-constexpr std::uint64_t p = prime_field::modulus;
+constexpr std::uint64_t prime = prime_field::modulus;
 
 /// The same residue by CLN's integers.
 std::uint64_t reduced(const cln::cl_I& value) {
-    return static_cast<std::uint64_t>(cln::cl_I_to_ulong(cln::mod(value, cln::cl_I(static_cast<unsigned long>(p)))));
+    return static_cast<std::uint64_t>(
+        cln::cl_I_to_ulong(cln::mod(value, cln::cl_I(static_cast<unsigned long>(prime)))));
 }
 
 cln::cl_I integer(prime_field x) {
@@ -39,25 +40,25 @@ TEST(PrimeField, ComputesAsIntegersModuloThePrimeDo) {
 }
 
 TEST(PrimeField, ValuesAtTheEdgesAreReduced) {
-    const prime_field largest(p - 1);
-    EXPECT_TRUE(prime_field(p).is_zero());
-    EXPECT_EQ(prime_field(p + 5).value(), 5u);
+    const prime_field largest(prime - 1);
+    EXPECT_TRUE(prime_field(prime).is_zero());
+    EXPECT_EQ(prime_field(prime + 5).value(), 5u);
     EXPECT_EQ((largest + prime_field(std::uint64_t{1})).value(), 0u);
     EXPECT_EQ((largest * largest).value(), 1u);
-    EXPECT_EQ((prime_field() - prime_field(std::uint64_t{1})).value(), p - 1);
+    EXPECT_EQ((prime_field() - prime_field(std::uint64_t{1})).value(), prime - 1);
     EXPECT_TRUE((-prime_field()).is_zero());
 }
 
 TEST(PrimeField, ZeroHasNoInverse) {
     EXPECT_THROW(prime_field().inverse(), std::domain_error);
     EXPECT_THROW(prime_field(std::uint64_t{3}) / prime_field(), std::domain_error);
-    EXPECT_THROW(prime_field(rational(1) / rational(static_cast<unsigned long>(p))), std::domain_error);
+    EXPECT_THROW(prime_field(rational(1) / rational(static_cast<unsigned long>(prime))), std::domain_error);
 }
 
 // Which elements have a root is Jacobi's symbol, by CLN.
 TEST(PrimeField, RootsAreOfTheSquaresAndOfNothingElse) {
     std::mt19937_64 random(63);
-    const cln::cl_I modulus(static_cast<unsigned long>(p));
+    const cln::cl_I modulus(static_cast<unsigned long>(prime));
     for (int k = 0; k < 500; ++k) {
         const prime_field a(random());
         const std::optional<prime_field> root = a.root();

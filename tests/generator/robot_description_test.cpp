@@ -6,21 +6,19 @@
 #include <string>
 #include <vector>
 
-#include "support/temporary_folder.hpp"
+#include "support/robot_files.hpp"
 
 namespace idim::generator {
 
 namespace {
 
-const std::string source_folder = IDIM_SOURCE_DIR;
-
-robot_description read_text(const std::string& text) {
+robot_description read_description(const std::string& text) {
     const test::temporary_folder folder;
     return read_robot(folder.write("robot.yaml", text));
 }
 
 /// What the reader says about `text`, without the folder: "robot.yaml:3: field: message".
-std::string error_of(const std::string& text) {
+std::string error_of_robot(const std::string& text) {
     const test::temporary_folder folder;
     const std::string file = folder.write("robot.yaml", text);
     try {
@@ -60,7 +58,7 @@ std::vector<std::string> joint_names(const robot_description& robot) {
 
 TEST(RobotDescription, EveryRobotOfTheRepositoryIsReadAndNamedAsItsFolder) {
     int robots = 0;
-    for (const auto& folder : std::filesystem::directory_iterator(source_folder + "/robots")) {
+    for (const auto& folder : std::filesystem::directory_iterator(test::source_folder + "/robots")) {
         if (folder.is_directory()) {
             const std::string name = folder.path().filename().string();
             const robot_description robot = read_robot((folder.path() / (name + ".yaml")).string());
@@ -73,7 +71,7 @@ TEST(RobotDescription, EveryRobotOfTheRepositoryIsReadAndNamedAsItsFolder) {
 }
 
 TEST(RobotDescription, ScaraIsListedAsWritten) {
-    EXPECT_EQ(to_string(read_robot(source_folder + "/robots/scara/scara.yaml")),
+    EXPECT_EQ(to_string(read_robot(test::source_folder + "/robots/scara/scara.yaml")),
               "name: scara\n"
               "gravity: [0, 0, 0]\n"
               "constants:\n"
@@ -90,7 +88,7 @@ TEST(RobotDescription, ScaraIsListedAsWritten) {
 }
 
 TEST(RobotDescription, EveryFieldOfTheFormatIsRead) {
-    const robot_description robot = read_text(
+    const robot_description robot = read_description(
         "name: arm\n"
         "gravity: [0, -g, 0]\n"
         "constants: {g: 9.81, L: 2*0.25}\n"
@@ -127,7 +125,7 @@ TEST(RobotDescription, EveryFieldOfTheFormatIsRead) {
 }
 
 TEST(RobotDescription, DefaultsAreGravityDownNumberedJointsAndNoEffects) {
-    const robot_description robot = read_text("name: arm\njoints: [{theta: q}, {theta: q}]\n");
+    const robot_description robot = read_description("name: arm\njoints: [{theta: q}, {theta: q}]\n");
     EXPECT_EQ(robot.gravity[2].text, "-9.81");
     EXPECT_EQ(joint_names(robot), (std::vector<std::string>{"j1", "j2"}));
     EXPECT_TRUE(robot.effects.empty());
@@ -135,14 +133,14 @@ TEST(RobotDescription, DefaultsAreGravityDownNumberedJointsAndNoEffects) {
 }
 
 TEST(RobotDescription, EntriesKnowTheirLineAndField) {
-    const robot_description robot = read_text(two_joints(""));
+    const robot_description robot = read_description(two_joints(""));
     EXPECT_EQ(robot.joints[1].theta.where.line, 4);
     EXPECT_EQ(robot.joints[1].theta.where.field, "joints[2].theta");
     EXPECT_EQ(robot.joints[1].r.where.field, "joints[2].r");
 }
 
 TEST(RobotDescription, AntecedentsComeFirstAndOtherwiseTheWrittenOrderIsKept) {
-    const robot_description robot = read_text(
+    const robot_description robot = read_description(
         "name: tree\n"
         "joints:\n"
         "  - {name: hand, antecedent: arm, theta: q}\n"
@@ -159,23 +157,23 @@ TEST(RobotDescription, AntecedentsComeFirstAndOtherwiseTheWrittenOrderIsKept) {
 }
 
 TEST(RobotDescription, UnknownAndCyclicAntecedentsAreRefused) {
-    EXPECT_EQ(error_of(one_joint("theta: q, antecedent: j9")),
+    EXPECT_EQ(error_of_robot(one_joint("theta: q, antecedent: j9")),
               "robot.yaml:3: joints[1].antecedent: expected the name of a joint, or base, got \"j9\"");
-    EXPECT_EQ(error_of("name: arm\n"
-                       "joints:\n"
-                       "  - {name: j1, theta: q}\n"
-                       "  - {name: j2, antecedent: j3, theta: q}\n"
-                       "  - {name: j3, antecedent: j2, theta: q}\n"
-                       "  - {name: j4, antecedent: j3, theta: q}\n"),
+    EXPECT_EQ(error_of_robot("name: arm\n"
+                             "joints:\n"
+                             "  - {name: j1, theta: q}\n"
+                             "  - {name: j2, antecedent: j3, theta: q}\n"
+                             "  - {name: j3, antecedent: j2, theta: q}\n"
+                             "  - {name: j4, antecedent: j3, theta: q}\n"),
               "robot.yaml:4: joints[2].antecedent: antecedents form a cycle: j2 -> j3 -> j2");
-    EXPECT_EQ(error_of(one_joint("name: j1, theta: q, antecedent: j1")),
+    EXPECT_EQ(error_of_robot(one_joint("name: j1, theta: q, antecedent: j1")),
               "robot.yaml:3: joints[1].antecedent: antecedents form a cycle: j1 -> j1");
 }
 
 TEST(RobotDescription, NamesThatAreNoIdentifiersAreRefusedOnOneLine) {
     const std::string rule =
         "expected a name of letters, digits and underscores, a letter first, at most 64 long, got ";
-    const auto joint = [](const std::string& name) { return error_of(one_joint("theta: q, name: " + name)); };
+    const auto joint = [](const std::string& name) { return error_of_robot(one_joint("theta: q, name: " + name)); };
     EXPECT_EQ(joint("\"j1; system(0)\""), "robot.yaml:3: joints[1].name: " + rule + "\"j1; system(0)\"");
     EXPECT_EQ(joint("'a\"b'"), "robot.yaml:3: joints[1].name: " + rule + "\"a\\\"b\"");
     EXPECT_EQ(joint("'*/'"), "robot.yaml:3: joints[1].name: " + rule + "\"*/\"");
@@ -188,78 +186,78 @@ TEST(RobotDescription, NamesThatAreNoIdentifiersAreRefusedOnOneLine) {
     EXPECT_EQ(joint("while"),
               "robot.yaml:3: joints[1].name: \"while\" has a meaning in generated code, expected another name");
     EXPECT_EQ(joint("[a]"), "robot.yaml:3: joints[1].name: expected a joint name, got a list");
-    EXPECT_EQ(error_of("name: ../x\njoints: [{theta: q}]\n"), "robot.yaml:1: name: " + rule + "\"../x\"");
-    EXPECT_EQ(error_of(two_joints("effects: [../../etc/x]\n")),
+    EXPECT_EQ(error_of_robot("name: ../x\njoints: [{theta: q}]\n"), "robot.yaml:1: name: " + rule + "\"../x\"");
+    EXPECT_EQ(error_of_robot(two_joints("effects: [../../etc/x]\n")),
               "robot.yaml:5: effects[1]: " + rule + "\"../../etc/x\"");
-    EXPECT_EQ(error_of(two_joints("constants: {\"L\\n\": 1}\n")),
+    EXPECT_EQ(error_of_robot(two_joints("constants: {\"L\\n\": 1}\n")),
               "robot.yaml:5: constants.\"L\\x0a\": " + rule + "\"L\\x0a\"");
 }
 
 TEST(RobotDescription, ConstantsDoNotTakeNamesOfSignalsFunctionsOrParameters) {
     for (const char* name : {"q", "pi", "sin", "tau", "chi", "M", "XX"}) {
-        EXPECT_EQ(error_of(two_joints(std::string("constants: {") + name + ": 1}\n")),
+        EXPECT_EQ(error_of_robot(two_joints(std::string("constants: {") + name + ": 1}\n")),
                   std::string("robot.yaml:5: constants.") + name + ": \"" + name +
                       "\" has a meaning in expressions, expected another name");
     }
     for (const char* name : {"XX1", "ZZ2", "M3", "Ia1", "ZZ1R", "off12", "q3", "tau1"}) {
-        EXPECT_EQ(error_of(two_joints(std::string("constants: {") + name + ": 1}\n")),
+        EXPECT_EQ(error_of_robot(two_joints(std::string("constants: {") + name + ": 1}\n")),
                   std::string("robot.yaml:5: constants.") + name + ": \"" + name +
                       "\" is the name of a signal or parameter of a link, expected another name");
     }
-    EXPECT_EQ(error_of(two_joints("constants: {L: 1, D3: 1, RL4: 1, l3x: 1, R: 1, M3b: 1}\n")), "no error");
+    EXPECT_EQ(error_of_robot(two_joints("constants: {L: 1, D3: 1, RL4: 1, l3x: 1, R: 1, M3b: 1}\n")), "no error");
 }
 
 TEST(RobotDescription, JointNamesAreUnique) {
-    EXPECT_EQ(error_of("name: arm\njoints:\n  - {name: j2, theta: q}\n  - {theta: q}\n"),
+    EXPECT_EQ(error_of_robot("name: arm\njoints:\n  - {name: j2, theta: q}\n  - {theta: q}\n"),
               "robot.yaml:4: joints[2].name: joint \"j2\" is already on line 3");
-    EXPECT_EQ(error_of("name: arm\njoints:\n  - {name: a, theta: q}\n  - {name: A, theta: q}\n"), "no error");
+    EXPECT_EQ(error_of_robot("name: arm\njoints:\n  - {name: a, theta: q}\n  - {name: A, theta: q}\n"), "no error");
 }
 
 TEST(RobotDescription, AKeyThatIsUnknownOrWrittenTwiceIsRefused) {
     EXPECT_EQ(
-        error_of(two_joints("gravitation: [0, 0, 0]\n")),
+        error_of_robot(two_joints("gravitation: [0, 0, 0]\n")),
         "robot.yaml:5: unknown key \"gravitation\", expected one of name, gravity, constants, joints, loops, effects, "
         "control, parameters, urdf");
-    EXPECT_EQ(error_of(one_joint("theta: q, alfa: 0")),
+    EXPECT_EQ(error_of_robot(one_joint("theta: q, alfa: 0")),
               "robot.yaml:3: joints[1]: unknown key \"alfa\", expected one of name, type, antecedent, gamma, b, alpha, "
               "d, theta, r, massless, limits, drive_gain");
-    EXPECT_EQ(error_of(two_joints("name: again\n")), "robot.yaml:5: duplicate key \"name\", first on line 1");
-    EXPECT_EQ(error_of(two_joints("constants:\n  L: 1\n  L: 2\n")),
+    EXPECT_EQ(error_of_robot(two_joints("name: again\n")), "robot.yaml:5: duplicate key \"name\", first on line 1");
+    EXPECT_EQ(error_of_robot(two_joints("constants:\n  L: 1\n  L: 2\n")),
               "robot.yaml:7: constants: duplicate key \"L\", first on line 6");
-    EXPECT_EQ(error_of(two_joints("constants:\n  [a]: 1\n")),
+    EXPECT_EQ(error_of_robot(two_joints("constants:\n  [a]: 1\n")),
               "robot.yaml:6: constants: expected a plain name as key, got a list");
 }
 
 TEST(RobotDescription, TheEntryThatHoldsTheJointVariableIsRequired) {
-    EXPECT_EQ(error_of(one_joint("alpha: 0")),
+    EXPECT_EQ(error_of_robot(one_joint("alpha: 0")),
               "robot.yaml:3: joints[1].theta: missing, expected an expression of q such as \"q\" or \"q + pi/2\"");
-    EXPECT_EQ(error_of(one_joint("type: prismatic, theta: 0")),
+    EXPECT_EQ(error_of_robot(one_joint("type: prismatic, theta: 0")),
               "robot.yaml:3: joints[1].r: missing, expected an expression of q such as \"q\" or \"q + pi/2\"");
 }
 
 TEST(RobotDescription, EntriesOfARowAreFiniteNumbersOrExpressions) {
     const std::string where = "robot.yaml:3: joints[1].d: ";
-    EXPECT_EQ(error_of(one_joint("theta: q, d: .nan")),
+    EXPECT_EQ(error_of_robot(one_joint("theta: q, d: .nan")),
               where + "expected a finite number or an expression, got \".nan\"");
-    EXPECT_EQ(error_of(one_joint("theta: q, d: -.inf")),
+    EXPECT_EQ(error_of_robot(one_joint("theta: q, d: -.inf")),
               where + "expected a finite number or an expression, got \"-.inf\"");
-    EXPECT_EQ(error_of(one_joint("theta: q, d: 1e999")),
+    EXPECT_EQ(error_of_robot(one_joint("theta: q, d: 1e999")),
               where + "expected a finite number or an expression, got \"1e999\"");
-    EXPECT_EQ(error_of(one_joint("theta: q, d: [1]")), where + "expected a number or an expression, got a list");
-    EXPECT_EQ(error_of(one_joint("theta: q, d: ")), where + "expected a number or an expression, got nothing");
-    EXPECT_EQ(error_of(one_joint("theta: q, d: \"1\\n2\"")),
+    EXPECT_EQ(error_of_robot(one_joint("theta: q, d: [1]")), where + "expected a number or an expression, got a list");
+    EXPECT_EQ(error_of_robot(one_joint("theta: q, d: ")), where + "expected a number or an expression, got nothing");
+    EXPECT_EQ(error_of_robot(one_joint("theta: q, d: \"1\\n2\"")),
               where + "expected a number or an expression, got \"1\\x0a2\"");
-    EXPECT_EQ(error_of(one_joint("theta: q, d: " + std::string(5000, '1') + "x")),
+    EXPECT_EQ(error_of_robot(one_joint("theta: q, d: " + std::string(5000, '1') + "x")),
               where + "expected an expression of at most 4096 characters, got \"" + std::string(40, '1') + "...\"");
 }
 
 TEST(RobotDescription, AnUnknownJointTypeIsRefusedWithTheKnownOnes) {
-    EXPECT_EQ(error_of(one_joint("theta: q, type: spherical")),
+    EXPECT_EQ(error_of_robot(one_joint("theta: q, type: spherical")),
               "robot.yaml:3: joints[1].type: expected revolute, prismatic or fixed, got \"spherical\"");
 }
 
 TEST(RobotDescription, LimitsAndGainsAreChecked) {
-    const auto limits = [](const std::string& text) { return error_of(one_joint("theta: q, limits: " + text)); };
+    const auto limits = [](const std::string& text) { return error_of_robot(one_joint("theta: q, limits: " + text)); };
     const std::string where = "robot.yaml:3: joints[1].limits";
     EXPECT_EQ(limits("3"), where + ": expected a map with keys among position, velocity, effort, got \"3\"");
     EXPECT_EQ(limits("{position: 1}"), where + ".position: expected a list [lowest, highest], got \"1\"");
@@ -269,38 +267,40 @@ TEST(RobotDescription, LimitsAndGainsAreChecked) {
     EXPECT_EQ(limits("{velocity: 0}"), where + ".velocity: expected a positive number, got \"0\"");
     EXPECT_EQ(limits("{effort: .inf}"), where + ".effort: expected a finite number, got \".inf\"");
     EXPECT_EQ(limits("{force: 1}"), where + ": unknown key \"force\", expected one of position, velocity, effort");
-    EXPECT_EQ(error_of(one_joint("theta: q, drive_gain: 0")),
+    EXPECT_EQ(error_of_robot(one_joint("theta: q, drive_gain: 0")),
               "robot.yaml:3: joints[1].drive_gain: expected a number other than zero, got \"0\"");
-    EXPECT_EQ(error_of(two_joints("  - {type: fixed, drive_gain: 2}\n")),
+    EXPECT_EQ(error_of_robot(two_joints("  - {type: fixed, drive_gain: 2}\n")),
               "robot.yaml:5: joints[3].drive_gain: a fixed joint has no limits and no drive_gain");
 }
 
 TEST(RobotDescription, TheListOfJointsIsBounded) {
-    EXPECT_EQ(error_of("name: arm\n"), "robot.yaml:1: joints: missing, expected a list of joints");
-    EXPECT_EQ(error_of("name: arm\njoints: []\n"),
+    EXPECT_EQ(error_of_robot("name: arm\n"), "robot.yaml:1: joints: missing, expected a list of joints");
+    EXPECT_EQ(error_of_robot("name: arm\njoints: []\n"),
               "robot.yaml:2: joints: expected at least one joint, got an empty list");
-    EXPECT_EQ(error_of("name: arm\njoints:\n"),
+    EXPECT_EQ(error_of_robot("name: arm\njoints:\n"),
               "robot.yaml:2: joints: expected a list of joints such as [{alpha: 0, d: 0, theta: q, r: 0}], got "
               "nothing");
-    EXPECT_EQ(error_of(one_joint("type: fixed")),
+    EXPECT_EQ(error_of_robot(one_joint("type: fixed")),
               "robot.yaml:3: joints: every joint is fixed, expected a revolute or prismatic one");
     std::string text = "name: arm\njoints:\n";
     for (int j = 0; j < 200; ++j) {
         text += "  - {theta: q}\n";
     }
-    EXPECT_EQ(error_of(text), "no error");
-    EXPECT_EQ(error_of(text + "  - {theta: q}\n"), "robot.yaml:3: joints: expected at most 200 joints, got 201");
+    EXPECT_EQ(error_of_robot(text), "no error");
+    EXPECT_EQ(error_of_robot(text + "  - {theta: q}\n"), "robot.yaml:3: joints: expected at most 200 joints, got 201");
 }
 
 TEST(RobotDescription, GravityHasThreeEntries) {
-    EXPECT_EQ(error_of(two_joints("gravity: [0, -9.81]\n")),
+    EXPECT_EQ(error_of_robot(two_joints("gravity: [0, -9.81]\n")),
               "robot.yaml:5: gravity: expected three entries [m/s^2] such as [0, 0, -9.81], got 2");
-    EXPECT_EQ(error_of(two_joints("gravity: -9.81\n")),
+    EXPECT_EQ(error_of_robot(two_joints("gravity: -9.81\n")),
               "robot.yaml:5: gravity: expected three entries [m/s^2] such as [0, 0, -9.81], got \"-9.81\"");
 }
 
 TEST(RobotDescription, EffectsNameJointsThatMove) {
-    const auto effect = [](const std::string& text) { return error_of(two_joints("effects:\n  - " + text + "\n")); };
+    const auto effect = [](const std::string& text) {
+        return error_of_robot(two_joints("effects:\n  - " + text + "\n"));
+    };
     const std::string where = "robot.yaml:6: effects[1]";
     EXPECT_EQ(effect("{effect: spring, joints: [j7]}"),
               where + ".joints[1]: expected the name of a joint of this robot, got \"j7\"");
@@ -315,29 +315,30 @@ TEST(RobotDescription, EffectsNameJointsThatMove) {
     EXPECT_EQ(effect("{effect: coupling, joints: [j1], from: [j1]}"),
               where + ".from: joint \"j1\" is driven by itself, expected another joint");
     EXPECT_EQ(effect("{effect: spring, shape: {k: x}}"), where + ".shape.k: expected a number, got \"x\"");
-    EXPECT_EQ(error_of(two_joints("  - {name: tool, type: fixed}\neffects:\n  - {effect: spring, joints: [tool]}\n")),
-              "robot.yaml:7: effects[1].joints[1]: joint \"tool\" is fixed, expected one that moves");
-    EXPECT_EQ(error_of(two_joints("effects: spring\n")),
+    EXPECT_EQ(
+        error_of_robot(two_joints("  - {name: tool, type: fixed}\neffects:\n  - {effect: spring, joints: [tool]}\n")),
+        "robot.yaml:7: effects[1].joints[1]: joint \"tool\" is fixed, expected one that moves");
+    EXPECT_EQ(error_of_robot(two_joints("effects: spring\n")),
               "robot.yaml:5: effects: expected a list of effects such as [viscous_friction], got \"spring\"");
     std::string many = "effects:\n";
     for (int k = 0; k <= 1000; ++k) {
         many += "  - e" + std::to_string(k) + "\n";
     }
-    EXPECT_EQ(error_of(two_joints(many)), "robot.yaml:6: effects: expected at most 1000 effects, got 1001");
+    EXPECT_EQ(error_of_robot(two_joints(many)), "robot.yaml:6: effects: expected at most 1000 effects, got 1001");
 }
 
 TEST(RobotDescription, AnEffectActsOnceOnAJoint) {
-    EXPECT_EQ(error_of(two_joints("effects:\n  - spring\n  - {effect: spring, joints: [j2]}\n")),
+    EXPECT_EQ(error_of_robot(two_joints("effects:\n  - spring\n  - {effect: spring, joints: [j2]}\n")),
               "robot.yaml:7: effects[2]: effect \"spring\" is already on joint \"j2\", line 6");
-    EXPECT_EQ(error_of(two_joints("effects:\n  - {effect: spring, joints: [j2, j2]}\n")),
+    EXPECT_EQ(error_of_robot(two_joints("effects:\n  - {effect: spring, joints: [j2, j2]}\n")),
               "robot.yaml:6: effects[1]: effect \"spring\" is already on joint \"j2\", line 6");
-    EXPECT_EQ(
-        error_of(two_joints("effects:\n  - {effect: spring, joints: [j1]}\n  - {effect: spring, joints: [j2]}\n")),
-        "no error");
+    EXPECT_EQ(error_of_robot(
+                  two_joints("effects:\n  - {effect: spring, joints: [j1]}\n  - {effect: spring, joints: [j2]}\n")),
+              "no error");
 }
 
 TEST(RobotDescription, ControlHasOneNumberPerMovingJoint) {
-    const auto control = [](const std::string& text) { return error_of(two_joints("control: " + text + "\n")); };
+    const auto control = [](const std::string& text) { return error_of_robot(two_joints("control: " + text + "\n")); };
     EXPECT_EQ(control("{law: pd, kp: [1, 2, 3]}"),
               "robot.yaml:5: control.kp: expected one number or a list of 2, one for each joint that moves, got 3");
     EXPECT_EQ(control("{law: pd, kp: [1, x]}"), "robot.yaml:5: control.kp[2]: expected a number, got \"x\"");
@@ -350,33 +351,34 @@ TEST(RobotDescription, ControlHasOneNumberPerMovingJoint) {
 }
 
 TEST(RobotDescription, ParametersAreNumbers) {
-    EXPECT_EQ(error_of(two_joints("parameters: {ZZ1: one}\n")),
+    EXPECT_EQ(error_of_robot(two_joints("parameters: {ZZ1: one}\n")),
               "robot.yaml:5: parameters.ZZ1: expected a number, got \"one\"");
-    EXPECT_EQ(error_of(two_joints("parameters: {ZZ1: 1.5.2}\n")),
+    EXPECT_EQ(error_of_robot(two_joints("parameters: {ZZ1: 1.5.2}\n")),
               "robot.yaml:5: parameters.ZZ1: expected a number, got \"1.5.2\"");
-    EXPECT_EQ(error_of(two_joints("parameters: {ZZ1: +1.5e-2, M1: -.5}\n")), "no error");
+    EXPECT_EQ(error_of_robot(two_joints("parameters: {ZZ1: +1.5e-2, M1: -.5}\n")), "no error");
 }
 
 TEST(RobotDescription, FilesThatAreNoDescriptionAreRefused) {
-    EXPECT_EQ(error_of(""), "robot.yaml: is empty");
-    EXPECT_EQ(error_of("# only a comment\n"), "robot.yaml: is empty");
-    EXPECT_EQ(error_of("- a\n- b\n"),
+    EXPECT_EQ(error_of_robot(""), "robot.yaml: is empty");
+    EXPECT_EQ(error_of_robot("# only a comment\n"), "robot.yaml: is empty");
+    EXPECT_EQ(error_of_robot("- a\n- b\n"),
               "robot.yaml:1: expected a map with keys among name, gravity, constants, joints, loops, effects, control, "
               "parameters, urdf, got a list");
-    EXPECT_EQ(error_of("name: arm\njoints: [{theta: q}\nx: 1\n"),
+    EXPECT_EQ(error_of_robot("name: arm\njoints: [{theta: q}\nx: 1\n"),
               "robot.yaml:3: not YAML: end of sequence flow not found");
-    EXPECT_EQ(error_of(two_joints("---\nname: b\n")), "robot.yaml:6: a second YAML document, expected one per file");
-    EXPECT_EQ(error_of("name: arm\nx: \x04\n"), "robot.yaml:2: control character \"\\x04\", expected text");
-    EXPECT_EQ(error_of("name: arm\nx: " + std::string(1'000'000, 'a')), "robot.yaml: is larger than 1 MB");
-    EXPECT_EQ(error_of("joints: [{theta: q}]\n"), "robot.yaml:1: name: missing, expected the name of the robot");
+    EXPECT_EQ(error_of_robot(two_joints("---\nname: b\n")),
+              "robot.yaml:6: a second YAML document, expected one per file");
+    EXPECT_EQ(error_of_robot("name: arm\nx: \x04\n"), "robot.yaml:2: control character \"\\x04\", expected text");
+    EXPECT_EQ(error_of_robot("name: arm\nx: " + std::string(1'000'000, 'a')), "robot.yaml: is larger than 1 MB");
+    EXPECT_EQ(error_of_robot("joints: [{theta: q}]\n"), "robot.yaml:1: name: missing, expected the name of the robot");
 }
 
 TEST(RobotDescription, NestingAndAliasesAreBounded) {
-    EXPECT_EQ(error_of("name: arm\nx: " + std::string(20, '[') + std::string(20, ']') + "\n"),
+    EXPECT_EQ(error_of_robot("name: arm\nx: " + std::string(20, '[') + std::string(20, ']') + "\n"),
               "robot.yaml:2: lists and maps nested more than 20 levels deep");
-    EXPECT_EQ(error_of("name: arm\nx: " + std::string(500'000, '[') + "\n"),
+    EXPECT_EQ(error_of_robot("name: arm\nx: " + std::string(500'000, '[') + "\n"),
               "robot.yaml:2: lists and maps nested more than 20 levels deep");
-    EXPECT_EQ(error_of("name: &n arm\nx: [*n, *n]\n"),
+    EXPECT_EQ(error_of_robot("name: &n arm\nx: [*n, *n]\n"),
               "robot.yaml:2: YAML aliases (*name) are not read, write the value itself");
 }
 

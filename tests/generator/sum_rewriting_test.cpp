@@ -23,7 +23,7 @@ struct leaves {
     signed_node product(signed_node a, signed_node b) { return graph.multiply(a, b); }
 };
 
-double value(const expression_graph& graph) {
+double value_of(const expression_graph& graph) {
     const std::map<std::string, double> of = {{"p", 3.0}, {"q", -1.5}, {"x", 0.25}, {"y", 7.0}, {"z", -2.0}};
     std::vector<double> given;
     for (const graph_symbol& symbol : graph.symbols()) {
@@ -38,7 +38,7 @@ std::pair<int, int> rewritten(leaves& of, signed_node result) {
     of.graph.output("out", 0, result);
     const expression_graph after = with_rewritten_sums(of.graph);
     after.assert_invariants();
-    EXPECT_EQ(value(after), value(of.graph));
+    EXPECT_EQ(value_of(after), value_of(of.graph));
     const operation_count count = count_operations(after);
     return {count.mul, count.add};
 }

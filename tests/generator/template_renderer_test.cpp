@@ -63,8 +63,6 @@ std::string text_of(const std::vector<rendered_file>& files, const std::string& 
     return found == files.end() ? "" : found->text;
 }
 
-}  // namespace
-
 TEST_F(TemplateRenderer, PrintsEveryFunctionWithItsTextAsItIs) {
     const auto files = render(small_context(), templates());
     const std::string gravity = text_of(files, "gravity.hpp");
@@ -136,5 +134,7 @@ TEST_F(TemplateRenderer, ASectionThatIsNotPrintedLeavesNoLine) {
                   "a\n{{#effects}}\n{{text}}\n{{/effects}}\n\n{{#constants}}\n{{text}}\n{{/constants}}\nb\n");
     EXPECT_EQ(text_of(render(context, (folder_.path() / "lang").string()), "any.z"), "a\n\nL = 0.5\nb\n");
 }
+
+}  // namespace
 
 }  // namespace idim::generator

@@ -17,7 +17,7 @@ urdf_tree tree_of(const std::string& text) {
 }
 
 /// Without the folder.
-std::string error_of(const std::string& text) {
+std::string error_of_urdf(const std::string& text) {
     const test::temporary_folder folder;
     try {
         read_urdf(folder.write("robot.urdf", text));
@@ -30,8 +30,8 @@ std::string error_of(const std::string& text) {
 }
 
 /// Links a, b on line 2; joint j on lines 3 to 5, holding `elements` on line 4; `rest` from line 6 on.
-std::string one_joint(const std::string& elements, const std::string& type = "continuous",
-                      const std::string& rest = "") {
+std::string one_urdf_joint(const std::string& elements, const std::string& type = "continuous",
+                           const std::string& rest = "") {
     return "<robot name=\"r\">\n<link name=\"a\"/><link name=\"b\"/>\n<joint name=\"j\" type=\"" + type +
            "\"><parent link=\"a\"/><child link=\"b\"/>\n" + elements + "\n</joint>\n" + rest + "</robot>\n";
 }
@@ -124,22 +124,25 @@ const bad_urdf bad_urdfs[] = {
      "\"a\", expected"},
     {"OwnParent", "<robot name=\"r\">\n" + links("ab") + joint("j", "b", "b") + "</robot>",
      "robot.urdf:2: link \"b\": links form a cycle: \"b\" -> \"b\", expected a tree"},
-    {"UnknownJointType", one_joint("", "ball"),
+    {"UnknownJointType", one_urdf_joint("", "ball"),
      "robot.urdf:3: joint \"j\": not URDF: Joint [j] has no known type [ball]"},
-    {"TypeThatIsNoText", one_joint("", "b\xc3"),
+    {"TypeThatIsNoText", one_urdf_joint("", "b\xc3"),
      "robot.urdf:3: joint \"j\": not URDF: Joint [j] has no known type [b?]"},
-    {"NoLimits", one_joint("", "revolute"), "robot.urdf:3: joint \"j\": not URDF: Joint [j] is of type REVOLUTE but"},
-    {"ZeroAxis", one_joint("<axis xyz=\"0 0 0\"/>"), "robot.urdf:3: joint \"j\": axis is zero, expected a direction"},
-    {"AxisOfTwoNumbers", one_joint("<axis xyz=\"0 1\"/>"), "robot.urdf:3: joint \"j\": not URDF: Malformed axis"},
-    {"OriginThatIsNoNumber", one_joint("<origin xyz=\"0 one 0\"/>"), "robot.urdf:3: joint \"j\": not URDF: "},
-    {"OriginThatIsNotFinite", one_joint("<origin xyz=\"0 nan 0\"/>"), "robot.urdf:3: joint \"j\": not URDF: "},
-    {"OriginThatOverflows", one_joint("<origin xyz=\"0 1e999 0\"/>"), "robot.urdf:3: joint \"j\": not URDF: "},
-    {"AngleThatUnderflows", one_joint("<origin rpy=\"0 1e-999 0\"/>"),
+    {"NoLimits", one_urdf_joint("", "revolute"),
+     "robot.urdf:3: joint \"j\": not URDF: Joint [j] is of type REVOLUTE but"},
+    {"ZeroAxis", one_urdf_joint("<axis xyz=\"0 0 0\"/>"),
+     "robot.urdf:3: joint \"j\": axis is zero, expected a direction"},
+    {"AxisOfTwoNumbers", one_urdf_joint("<axis xyz=\"0 1\"/>"), "robot.urdf:3: joint \"j\": not URDF: Malformed axis"},
+    {"OriginThatIsNoNumber", one_urdf_joint("<origin xyz=\"0 one 0\"/>"), "robot.urdf:3: joint \"j\": not URDF: "},
+    {"OriginThatIsNotFinite", one_urdf_joint("<origin xyz=\"0 nan 0\"/>"), "robot.urdf:3: joint \"j\": not URDF: "},
+    {"OriginThatOverflows", one_urdf_joint("<origin xyz=\"0 1e999 0\"/>"), "robot.urdf:3: joint \"j\": not URDF: "},
+    {"AngleThatUnderflows", one_urdf_joint("<origin rpy=\"0 1e-999 0\"/>"),
      "robot.urdf:4: joint \"j\": expected a finite angle"},
-    {"OriginOutOfThisWorld", one_joint("<origin xyz=\"0 1e10 0\"/>"), "robot.urdf:3: joint \"j\": a number beyond 1e9"},
-    {"LimitsThatCross", one_joint("<limit lower=\"1\" upper=\"-1\" effort=\"1\" velocity=\"1\"/>", "revolute"),
+    {"OriginOutOfThisWorld", one_urdf_joint("<origin xyz=\"0 1e10 0\"/>"),
+     "robot.urdf:3: joint \"j\": a number beyond 1e9"},
+    {"LimitsThatCross", one_urdf_joint("<limit lower=\"1\" upper=\"-1\" effort=\"1\" velocity=\"1\"/>", "revolute"),
      "robot.urdf:3: joint \"j\": lower limit above the upper one"},
-    {"NegativeDamping", one_joint("<dynamics damping=\"-1\"/>"),
+    {"NegativeDamping", one_urdf_joint("<dynamics damping=\"-1\"/>"),
      "robot.urdf:3: joint \"j\": negative damping, expected zero or more"},
     {"NegativeMass", one_link("<inertial><mass value=\"-1\"/>" + inertia + "</inertial>"),
      "robot.urdf:2: link \"b\": negative mass, expected zero or more"},
@@ -149,21 +152,22 @@ const bad_urdf bad_urdfs[] = {
      "robot.urdf:2: link \"b\": not URDF: "},
     {"InertiaOfFiveNumbers", one_link("<inertial><mass value=\"1\"/><inertia ixx=\"1\"/></inertial>"),
      "robot.urdf:2: link \"b\": not URDF: Inertial: inertia element missing"},
-    {"MimicOfNothing", one_joint("<mimic joint=\"k\"/>"),
+    {"MimicOfNothing", one_urdf_joint("<mimic joint=\"k\"/>"),
      "robot.urdf:3: joint \"j\": mimics joint \"k\", which is not in the file"},
-    {"MimicOfItself", one_joint("<mimic joint=\"j\"/>"),
+    {"MimicOfItself", one_urdf_joint("<mimic joint=\"j\"/>"),
      "robot.urdf:3: joint \"j\": joints mimic each other: \"j\" -> \"j\""},
     {"MimicCycle",
      "<robot name=\"r\">\n" + links("abcd") + joint("i", "a", "b", "<mimic joint=\"j\"/>") +
          joint("j", "b", "c", "<mimic joint=\"k\"/>") + joint("k", "c", "d", "<mimic joint=\"j\"/>") + "</robot>",
      "robot.urdf:4: joint \"j\": joints mimic each other: \"j\" -> \"k\" -> \"j\", expected one that is driven"},
     {"MimicOfAFixedJoint",
-     one_joint("<mimic joint=\"k\"/>", "continuous",
-               "<link name=\"c\"/><joint name=\"k\" type=\"fixed\"><parent link=\"a\"/><child link=\"c\"/></joint>\n"),
+     one_urdf_joint(
+         "<mimic joint=\"k\"/>", "continuous",
+         "<link name=\"c\"/><joint name=\"k\" type=\"fixed\"><parent link=\"a\"/><child link=\"c\"/></joint>\n"),
      "robot.urdf:3: joint \"j\": mimics joint \"k\", expected a revolute, continuous or prismatic joint"},
-    {"FixedJointThatMimics", one_joint("<mimic joint=\"j\"/>", "fixed"),
+    {"FixedJointThatMimics", one_urdf_joint("<mimic joint=\"j\"/>", "fixed"),
      "robot.urdf:3: joint \"j\": mimics another joint, expected"},
-    {"MimicThatStands", one_joint("<mimic joint=\"j\" multiplier=\"0\"/>"),
+    {"MimicThatStands", one_urdf_joint("<mimic joint=\"j\" multiplier=\"0\"/>"),
      "robot.urdf:3: joint \"j\": mimics with multiplier 0"},
     {"Entities", "<!DOCTYPE r [<!ENTITY a \"aaaa\"><!ENTITY b \"&a;&a;\">]>\n<robot name=\"&b;\"/>",
      "robot.urdf:1: document types and entities are not read, expected elements only"},
@@ -203,11 +207,9 @@ const bad_urdf bad_urdfs[] = {
 
 class BadUrdf : public testing::TestWithParam<bad_urdf> {};
 
-}  // namespace
-
 TEST_P(BadUrdf, IsRefusedInOneLineThatNamesThePlace) {
     testing::internal::CaptureStderr();
-    const std::string error = error_of(GetParam().text);
+    const std::string error = error_of_urdf(GetParam().text);
     EXPECT_EQ(error.rfind(GetParam().message, 0), 0u) << error;
     EXPECT_LT(error.size(), 400u);
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");  // what urdfdom prints of itself
@@ -250,9 +252,9 @@ TEST(UrdfReader, ReadsLinksAndJointsInTheOrderOfTheFile) {
 
 TEST(UrdfReader, SaysWhichAnglesBecameMultiplesOfPiAndWhichNearlyDid) {
     const urdf_tree tree = tree_of(
-        one_joint("<origin rpy=\"1.5708 1.5708 -3.1415\"/>", "continuous",
-                  "<link name=\"c\"/>\n<joint name=\"k\" type=\"fixed\"><parent link=\"a\"/><child link=\"c\"/>\n"
-                  "<origin rpy=\"1.5708 1.57 1.5707963267948966\"/></joint>\n"));
+        one_urdf_joint("<origin rpy=\"1.5708 1.5708 -3.1415\"/>", "continuous",
+                       "<link name=\"c\"/>\n<joint name=\"k\" type=\"fixed\"><parent link=\"a\"/><child link=\"c\"/>\n"
+                       "<origin rpy=\"1.5708 1.57 1.5707963267948966\"/></joint>\n"));
     EXPECT_EQ(tree.notes,
               (std::vector<std::string>{
                   "angles read as multiples of pi/2: 1.5708 as pi/2 (lines 4, 8); -3.1415 as -pi (line 4)",
@@ -283,7 +285,7 @@ TEST(UrdfReader, FollowsChainsOfMimicJointsToTheDrivenOne) {
 
 TEST(UrdfReader, LimitsOfZeroAreNone) {
     const urdf_tree tree =
-        tree_of(one_joint("<limit lower=\"0\" upper=\"0\" effort=\"0\" velocity=\"0\"/>", "prismatic"));
+        tree_of(one_urdf_joint("<limit lower=\"0\" upper=\"0\" effort=\"0\" velocity=\"0\"/>", "prismatic"));
     EXPECT_FALSE(tree.joints[0].limits.position);
     EXPECT_FALSE(tree.joints[0].limits.velocity);
     EXPECT_FALSE(tree.joints[0].limits.effort);
@@ -295,5 +297,7 @@ TEST(UrdfReader, LinksWhoseMassAndInertiaAreZeroHaveNone) {
                          "iyz=\"0\" izz=\"0\"/></inertial>"));
     EXPECT_FALSE(tree.links[1].inertial);
 }
+
+}  // namespace
 
 }  // namespace idim::generator

@@ -27,7 +27,7 @@ robot_description bare(const std::string& urdf) {
 }
 
 template <class F>
-std::string error_of(const F& read) {
+std::string error_of_reading(const F& read) {
     try {
         read();
     } catch (const input_error& error) {
@@ -48,7 +48,7 @@ std::vector<std::string> names_of(const robot_description& robot) {
 }
 
 /// Links l0 (root, massless), l1 .. in a chain of joints j1 ..
-urdf_text chain(int joints, const std::string& type = "continuous") {
+urdf_text urdf_chain(int joints, const std::string& type = "continuous") {
     urdf_text urdf("arm");
     urdf.massless_link("l0");
     for (int j = 1; j <= joints; ++j) {
@@ -63,7 +63,7 @@ urdf_text chain(int joints, const std::string& type = "continuous") {
 }  // namespace
 
 TEST(UrdfRobot, OfABareFileHasItsNameGravityDownwardAndThreeEffectsAtEveryDrivenJoint) {
-    urdf_text urdf = chain(2);
+    urdf_text urdf = urdf_chain(2);
     urdf.link("l3", unit_body).joint("j3", "continuous", "l2", "l3", {}, {1.0, 0.0, 0.0}, "<mimic joint=\"j1\"/>");
     const robot_description robot = bare(urdf.text());
     EXPECT_EQ(robot.name, "arm");
@@ -94,7 +94,7 @@ TEST(UrdfRobot, HasNoDrivesAtFloatingAndPlanarJoints) {
 
 TEST(UrdfRobot, OfAYamlFileTakesTheRestFromThere) {
     const robot_description robot = with_yaml(
-        chain(2).text(),
+        urdf_chain(2).text(),
         "name: mine\ngravity: [0, 0, 0]\nconstants: {L: 1}\neffects: [{effect: viscous_friction, joints: [j2]}]\n"
         "control: {law: pd_cascade, rate: 100, kp: [1, 2], kv: 3}\nparameters: {M1: 5, Ia9: 2}\n");
     EXPECT_EQ(robot.name, "mine");
@@ -108,7 +108,7 @@ TEST(UrdfRobot, OfAYamlFileTakesTheRestFromThere) {
     EXPECT_EQ(robot.parameters.at("Fv2"), 0.2);
     EXPECT_EQ(robot.parameters.count("Fv1"), 0u);  // the effect does not act there
     EXPECT_EQ(robot.parameters.count("Fc2"), 0u);
-    EXPECT_EQ(with_yaml(chain(1).text(), "").name, "arm");
+    EXPECT_EQ(with_yaml(urdf_chain(1).text(), "").name, "arm");
 }
 
 TEST(UrdfRobot, KeepsTheOrderOfTheFileUnlessAParentComesLater) {
@@ -146,7 +146,7 @@ TEST(UrdfRobot, ComposesFixedJointsAwayUnlessTheirLinkHasInertia) {
 }
 
 TEST(UrdfRobot, WritesMimicJointsInTheCoordinateTheyFollow) {
-    urdf_text urdf = chain(1);
+    urdf_text urdf = urdf_chain(1);
     urdf.link("l2", unit_body).link("l3", unit_body);
     urdf.joint("my-finger", "continuous", "l1", "l2", {{}, {0.0, 0.0, 1.5708}}, {0.0, 0.0, 1.0},
                "<mimic joint=\"j1\" multiplier=\"-1\" offset=\"1.5708\"/>");
@@ -161,7 +161,7 @@ TEST(UrdfRobot, WritesMimicJointsInTheCoordinateTheyFollow) {
 }
 
 TEST(UrdfRobot, KeepsLimits) {
-    const robot_description robot = bare(chain(1, "prismatic").text());
+    const robot_description robot = bare(urdf_chain(1, "prismatic").text());
     EXPECT_EQ(robot.joints[0].limits.position, (std::pair{-9.0, 9.0}));
     EXPECT_EQ(robot.joints[0].limits.velocity, 3.0);
     EXPECT_EQ(robot.joints[0].limits.effort, 50.0);
@@ -180,7 +180,7 @@ TEST(UrdfRobot, MakesIdentifiersOfNamesAndSaysSo) {
 }
 
 TEST(UrdfRobot, SaysWhichParametersMasslessEndsLack) {
-    urdf_text urdf = chain(1);
+    urdf_text urdf = urdf_chain(1);
     urdf.massless_link("tip").joint("j2", "continuous", "l1", "tip");
     const robot_description robot = bare(urdf.text());
     EXPECT_TRUE(robot.joints[1].massless);
@@ -191,7 +191,7 @@ TEST(UrdfRobot, SaysWhichParametersMasslessEndsLack) {
 }
 
 TEST(UrdfRobot, SaysWhichAxesAreNearlyParallel) {
-    urdf_text urdf = chain(1);
+    urdf_text urdf = urdf_chain(1);
     urdf.link("l2", unit_body).joint("j2", "continuous", "l1", "l2", {{}, {0.00012, 0.0, 0.0}});
     EXPECT_EQ(bare(urdf.text()).notes,
               std::vector<std::string>{"the axes of joints j1 and j2 are 0.00012 rad from parallel: more digits of the "
@@ -199,24 +199,24 @@ TEST(UrdfRobot, SaysWhichAxesAreNearlyParallel) {
 }
 
 TEST(UrdfRobot, RefusesNamesThatCollide) {
-    urdf_text urdf = chain(1);
+    urdf_text urdf = urdf_chain(1);
     urdf.link("l2", unit_body).joint("my-j", "continuous", "l1", "l2");
     urdf.link("l3", unit_body).joint("my.j", "continuous", "l2", "l3");
-    EXPECT_EQ(error_of([&] { bare(urdf.text()); }),
+    EXPECT_EQ(error_of_reading([&] { bare(urdf.text()); }),
               "robot.urdf:36: joint \"my.j\": joints \"my-j\" and \"my.j\" both get the name my_j, expected names that "
               "differ in letters and digits");
     urdf_text parts("arm");
     parts.massless_link("a").link("b", unit_body).link("c", unit_body);
     parts.joint("j_x", "continuous", "b", "c").joint("j", "planar", "a", "b");
-    EXPECT_NE(error_of([&] { bare(parts.text()); }).find("joints \"j_x\" and \"j_x\" both get the name j_x"),
+    EXPECT_NE(error_of_reading([&] { bare(parts.text()); }).find("joints \"j_x\" and \"j_x\" both get the name j_x"),
               std::string::npos);
 }
 
 TEST(UrdfRobot, RefusesNamesWhoseParametersWouldBeAlike) {
-    urdf_text urdf = chain(1);
+    urdf_text urdf = urdf_chain(1);
     urdf.link("l2", unit_body).joint("tool", "fixed", "l1", "l2");
     urdf.link("l3", unit_body).joint("toolR", "fixed", "l1", "l3");
-    EXPECT_NE(error_of([&] {
+    EXPECT_NE(error_of_reading([&] {
                   bare(urdf.text());
               }).find("the parameters of joints \"tool\" and \"toolR\" would get like names, such as XX_toolR"),
               std::string::npos);
@@ -225,20 +225,22 @@ TEST(UrdfRobot, RefusesNamesWhoseParametersWouldBeAlike) {
 TEST(UrdfRobot, RefusesARobotThatDoesNotMove) {
     urdf_text urdf("arm");
     urdf.link("a", unit_body).link("b", unit_body).joint("j", "fixed", "a", "b");
-    EXPECT_EQ(error_of([&] { bare(urdf.text()); }), "robot.urdf: every joint is fixed, expected one that moves");
+    EXPECT_EQ(error_of_reading([&] { bare(urdf.text()); }),
+              "robot.urdf: every joint is fixed, expected one that moves");
 }
 
 TEST(UrdfRobot, RefusesMoreJointsThanADescriptionMayHave) {
-    EXPECT_NE(error_of([] { bare(chain(201).text()); }).find("more than 200 joints that move or carry inertia"),
-              std::string::npos);
+    EXPECT_NE(
+        error_of_reading([] { bare(urdf_chain(201).text()); }).find("more than 200 joints that move or carry inertia"),
+        std::string::npos);
 }
 
 TEST(UrdfRobot, RefusesJointsBesideAUrdfAndFilesThatAreMissing) {
-    EXPECT_EQ(error_of([] { with_yaml(chain(1).text(), "joints: [{theta: q}]\n"); }),
+    EXPECT_EQ(error_of_reading([] { with_yaml(urdf_chain(1).text(), "joints: [{theta: q}]\n"); }),
               "robot.yaml:2: joints: the URDF gives the joints, expected one of joints and urdf");
     const temporary_folder folder;
     const std::string file = folder.write("robot.yaml", "urdf: other.urdf\n");
-    EXPECT_EQ(error_of([&] { read_robot(file); }),
+    EXPECT_EQ(error_of_reading([&] { read_robot(file); }),
               folder.path().string() + "/other.urdf: cannot be read: No such file or directory");
 }
 

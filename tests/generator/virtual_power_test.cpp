@@ -33,7 +33,7 @@ robot read(const std::string& file) {
     return result;
 }
 
-robot read_text(const std::string& text) {
+robot read_robot_text(const std::string& text) {
     const test::temporary_folder folder;
     return read(folder.write("robot.yaml", text));
 }
@@ -86,7 +86,7 @@ void expect_weighted_rows(const robot& of) {
 }
 
 /// A chain whose rows repeat every six joints.
-std::string chain(int joints) {
+std::string repeating_chain(int joints) {
     std::string text = "name: chain\njoints:\n";
     const char* const alpha[] = {"0", "pi/2", "-pi/2"};
     for (int i = 1; i <= joints; ++i) {
@@ -98,14 +98,12 @@ std::string chain(int joints) {
 
 /// Operations of one row of the standard regressor.
 std::size_t operations(int joints) {
-    const robot of = read_text(chain(joints));
+    const robot of = read_robot_text(repeating_chain(joints));
     const standard_regressor W = build_standard_regressor(of.tree, of.parameters);
     return graph_evaluator<double>(W.graph, double_arithmetic::number).size();
 }
 
 class VirtualPower : public testing::TestWithParam<std::string> {};
-
-}  // namespace
 
 TEST_P(VirtualPower, IsTheSumOfTheRegressorsRowsTimesTheVirtualVelocities) {
     expect_weighted_rows(read(test::robot_file(GetParam())));
@@ -115,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(Robots, VirtualPower, testing::ValuesIn(test::robot_nam
                          [](const testing::TestParamInfo<std::string>& name) { return name.param; });
 
 TEST(VirtualPowerOfATree, IsTheSumOfTheRegressorsRowsTimesTheVirtualVelocities) {
-    expect_weighted_rows(read_text(
+    expect_weighted_rows(read_robot_text(
         "name: tree\nconstants: {L: 0.3, a: 0.4}\ngravity: [1, -2, -9.81]\njoints:\n"
         "  - {name: j1, gamma: 0.3, b: L, alpha: a, theta: q, r: 0.3}\n"
         "  - {name: j2, alpha: pi/2, d: 0.1, theta: 2*q + 0.5}\n"
@@ -131,5 +129,7 @@ TEST(VirtualPower, TakesAsManyOperationsForEveryFurtherLink) {
     EXPECT_EQ(operations(24) - operations(18), operations(18) - operations(12));
     EXPECT_GT(operations(18), operations(12));
 }
+
+}  // namespace
 
 }  // namespace idim::generator

@@ -10,7 +10,7 @@ namespace {
 
 constexpr xml_limits small = {3, 10, 2, "link", 2};
 
-std::string error_of(const std::string& text) {
+std::string error_of_xml(const std::string& text) {
     try {
         read_xml(text, "f", small);
     } catch (const input_error& error) {
@@ -62,21 +62,21 @@ TEST(XmlElement, RefusesWhatIsNotWellFormedWithItsLine) {
         {"<a>\n<", "f:2: not XML: expected the name of an element"},
     };
     for (const auto& [text, message] : cases) {
-        EXPECT_EQ(error_of(text).rfind(message, 0), 0u) << text << ": " << error_of(text);
+        EXPECT_EQ(error_of_xml(text).rfind(message, 0), 0u) << text << ": " << error_of_xml(text);
     }
 }
 
 TEST(XmlElement, RefusesDocumentTypesSoThatNoEntityIsExpanded) {
     const std::string message = "f:2: document types and entities are not read, expected elements only";
-    EXPECT_EQ(error_of("<?xml version='1.0'?>\n<!DOCTYPE a [<!ENTITY b 'bb'>]><a/>"), message);
-    EXPECT_EQ(error_of("<a>\n<!ENTITY b 'bb'></a>"), message);
+    EXPECT_EQ(error_of_xml("<?xml version='1.0'?>\n<!DOCTYPE a [<!ENTITY b 'bb'>]><a/>"), message);
+    EXPECT_EQ(error_of_xml("<a>\n<!ENTITY b 'bb'></a>"), message);
 }
 
 TEST(XmlElement, NamesTheLimitThatAFilePasses) {
-    EXPECT_EQ(error_of("<a>\n<a>\n<a>\n<a>\n"), "f:4: elements nested more than 3 deep");
-    EXPECT_EQ(error_of("<a><link/><link/>\n<link/></a>"), "f:2: more than 2 elements \"link\"");
-    EXPECT_EQ(error_of("<a><b/><b/><b/><b/><b/><b/><b/><b/><b/>\n<b/></a>"), "f:2: more than 10 elements");
-    EXPECT_EQ(error_of("<a b='1' c='2' d='3'/>"), "f:1: element \"a\" has more than 2 attributes");
+    EXPECT_EQ(error_of_xml("<a>\n<a>\n<a>\n<a>\n"), "f:4: elements nested more than 3 deep");
+    EXPECT_EQ(error_of_xml("<a><link/><link/>\n<link/></a>"), "f:2: more than 2 elements \"link\"");
+    EXPECT_EQ(error_of_xml("<a><b/><b/><b/><b/><b/><b/><b/><b/><b/>\n<b/></a>"), "f:2: more than 10 elements");
+    EXPECT_EQ(error_of_xml("<a b='1' c='2' d='3'/>"), "f:1: element \"a\" has more than 2 attributes");
 }
 
 }  // namespace idim::generator

@@ -19,8 +19,8 @@ namespace idim::test {
 
 namespace {
 
-const char* const rigid = "[]";
-const char* const friction = "[viscous_friction, coulomb_friction]";
+const char* const no_effects = "[]";
+const char* const friction_effects = "[viscous_friction, coulomb_friction]";
 const char* const rotors = "[rotor_inertia]";
 const char* const rotors_friction = "[rotor_inertia, viscous_friction, coulomb_friction]";
 const char* const everything = "[rotor_inertia, viscous_friction, coulomb_friction, torque_offset]";
@@ -100,22 +100,20 @@ std::vector<std::string> serial_robots() {
     return names;
 }
 
-}  // namespace
-
 TEST(BaseParameters, ScaraHasEightOfThemFourRigid) {
     EXPECT_EQ(generator::find_base(robot_file("scara"), templates_folder).parameters.size(), 8u);  // [IV 52]
-    EXPECT_EQ(count("scara", rigid), 4u);
+    EXPECT_EQ(count("scara", no_effects), 4u);
 }
 
 TEST(BaseParameters, DensoHasThePublishedCounts) {
-    EXPECT_EQ(count("denso_vp6242g", rigid), 36u);
-    EXPECT_EQ(count("denso_vp6242g", friction), 48u);
+    EXPECT_EQ(count("denso_vp6242g", no_effects), 36u);
+    EXPECT_EQ(count("denso_vp6242g", friction_effects), 48u);
     EXPECT_EQ(generator::find_base(robot_file("denso_vp6242g"), templates_folder).parameters.size(), 48u);
 }
 
 TEST(BaseParameters, GeneralSixAxisRobotsHaveThePublishedCounts) {
     for (const char* robot : {"puma560", "rx90", "tx40", "ur5", "denso_vp6242g"}) {
-        EXPECT_EQ(count(robot, rigid), 36u) << robot;
+        EXPECT_EQ(count(robot, no_effects), 36u) << robot;
         EXPECT_EQ(count(robot, rotors), 40u) << robot;
         EXPECT_EQ(count(robot, rotors_friction), 52u) << robot;
         EXPECT_EQ(count(robot, everything), 58u) << robot;
@@ -124,7 +122,7 @@ TEST(BaseParameters, GeneralSixAxisRobotsHaveThePublishedCounts) {
 
 TEST(BaseParameters, SevenAxisRobotsHaveThePublishedCounts) {
     for (const char* robot : {"kuka_lwr", "panda", "xmate7p", "kinova_gen3"}) {
-        EXPECT_EQ(count(robot, rigid), 43u) << robot;
+        EXPECT_EQ(count(robot, no_effects), 43u) << robot;
         EXPECT_EQ(count(robot, rotors), 48u) << robot;
         EXPECT_EQ(count(robot, rotors_friction), 62u) << robot;
         EXPECT_EQ(count(robot, everything), 69u) << robot;
@@ -142,7 +140,7 @@ TEST(BaseParameters, LinksWithoutMassLeaveTheFrictionOfEachJoint) {
 }
 
 TEST(BaseParameters, StanfordHasThirtyThreeRigidOnes) {
-    EXPECT_EQ(count("stanford", rigid), 33u);
+    EXPECT_EQ(count("stanford", no_effects), 33u);
 }
 
 TEST(BaseParameters, Tx40AsDeclaredHasFiftyEight) {
@@ -279,7 +277,7 @@ TEST(RigidLinksAlone, HaveTheOperationsOfTheRobotWithoutEffects) {
     };
     for (const std::string& robot : robot_names()) {
         const temporary_folder folder;
-        const std::string without = write_variant(folder, robot, rigid);
+        const std::string without = write_variant(folder, robot, no_effects);
         EXPECT_EQ(counts(generator::generate(robot_file(robot), templates_folder).rigid_operations),
                   counts(generator::generate(without, templates_folder).operations))
             << robot;
@@ -296,7 +294,7 @@ TEST_P(Rank, IsThatOfARegressorByKdl) {
     const auto n = static_cast<Eigen::Index>(table.rows.size());
     const Eigen::MatrixXd W = sampled_regressor(table);
     const std::pair<const char*, Eigen::Index> cases[] = {
-        {rigid, 10}, {rotors, 11}, {rotors_friction, 13}, {everything, 14}};
+        {no_effects, 10}, {rotors, 11}, {rotors_friction, 13}, {everything, 14}};
     for (const auto& [effects, columns] : cases) {
         const rank_by_svd svd = find_rank(W.leftCols(columns * n));
         EXPECT_EQ(static_cast<Eigen::Index>(count(GetParam(), effects)), svd.rank) << effects;
@@ -313,7 +311,7 @@ TEST(RankOfScara, IsThatOfARegressorByKdl) {
     const Eigen::MatrixXd W = sampled_regressor(table);
     EXPECT_EQ(find_rank(W.leftCols(20)).rank, 4);
     EXPECT_EQ(find_rank(W.leftCols(22)).rank, 5);  // rotor_inertia at both: Ia1 regroups, Ia2 does not
-    EXPECT_EQ(count("scara", rigid), 4u);
+    EXPECT_EQ(count("scara", no_effects), 4u);
     EXPECT_EQ(count("scara", rotors), 5u);
 }
 
@@ -348,5 +346,7 @@ TEST(NearlySpecialGeometry, AlmostParallelAxesAreRefusedWithBothRanks) {
         EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     }
 }
+
+}  // namespace
 
 }  // namespace idim::test

@@ -15,12 +15,12 @@ namespace idim::test {
 namespace {
 
 // More than two packs of eight lanes, and odd; rows of a larger array.
-constexpr Eigen::Index samples = 37;
+constexpr Eigen::Index batch_samples = 37;
 constexpr Eigen::Index stride = 41;
 
 /// Arrays of random motion with a stride, by columns.
-struct motion {
-    explicit motion(Eigen::Index joints)
+struct sampled_motion {
+    explicit sampled_motion(Eigen::Index joints)
         : q(stride, joints), qd(stride, joints), qdd(stride, joints), t(stride), temp(stride, joints) {
         std::mt19937_64 random(41);
         for (Eigen::Index k = 0; k < stride; ++k) {
@@ -59,14 +59,14 @@ class Batch : public testing::TestWithParam<std::string> {
     static Eigen::VectorXd parameters() { return Eigen::VectorXd::LinSpaced(model().n_base(), -0.7, 1.9); }
 
     /// Regressors of samples first..first+count-1, one a row; NaN where nothing was written.
-    static Eigen::MatrixXd regressors(const motion& all, Eigen::Index first, Eigen::Index count) {
+    static Eigen::MatrixXd regressors(const sampled_motion& all, Eigen::Index first, Eigen::Index count) {
         Eigen::MatrixXd W = Eigen::MatrixXd::Constant(count + 3, model().dof() * model().n_base(), std::nan(""));
         const idim_samples part = all.part(first, count);
         model().interface().regressor_batch(&part, W.data(), static_cast<size_t>(W.rows()));
         EXPECT_TRUE(W.bottomRows(3).array().isNaN().all()) << "written behind the last of " << count << " samples";
         return W.topRows(count);
     }
-    static Eigen::MatrixXd torques(const motion& all, Eigen::Index first, Eigen::Index count) {
+    static Eigen::MatrixXd torques(const sampled_motion& all, Eigen::Index first, Eigen::Index count) {
         Eigen::MatrixXd tau = Eigen::MatrixXd::Constant(count + 3, model().dof(), std::nan(""));
         const idim_samples part = all.part(first, count);
         const Eigen::VectorXd chi = parameters();
@@ -82,16 +82,14 @@ std::vector<std::string> robots_and_effects() {
     return names;
 }
 
-}  // namespace
-
 TEST_P(Batch, HasTheValuesOfOneSampleAtATime) {
     // Sines differ by two units in the last place (4e-16); some hundred operations carry that on, and terms cancel in
     // part.
     constexpr double tolerance = 1e-13;
-    const motion all(model().dof());
-    const Eigen::MatrixXd W = regressors(all, 0, samples);
-    const Eigen::MatrixXd tau = torques(all, 0, samples);
-    for (Eigen::Index k = 0; k < samples; ++k) {
+    const sampled_motion all(model().dof());
+    const Eigen::MatrixXd W = regressors(all, 0, batch_samples);
+    const Eigen::MatrixXd tau = torques(all, 0, batch_samples);
+    for (Eigen::Index k = 0; k < batch_samples; ++k) {
         const Eigen::VectorXd temp = all.temp.row(k);
         const Eigen::MatrixXd one = model().regressor(all.state(k), all.t[k], temp);
         const Eigen::MatrixXd row = W.row(k).reshaped(model().n_base(), model().dof()).transpose();
@@ -102,9 +100,9 @@ TEST_P(Batch, HasTheValuesOfOneSampleAtATime) {
 }
 
 TEST_P(Batch, ASampleDependsNeitherOnItsNeighboursNorOnItsPlace) {
-    const motion all(model().dof());
-    const Eigen::MatrixXd W = regressors(all, 0, samples);
-    const Eigen::MatrixXd tau = torques(all, 0, samples);
+    const sampled_motion all(model().dof());
+    const Eigen::MatrixXd W = regressors(all, 0, batch_samples);
+    const Eigen::MatrixXd tau = torques(all, 0, batch_samples);
     for (const Eigen::Index count : {1, 2, 3, 4, 5, 7, 8, 9, 15, 16, 17}) {
         for (const Eigen::Index first : {0, 1, 6}) {
             EXPECT_EQ(regressors(all, first, count), W.middleRows(first, count)) << count << " from " << first;
@@ -114,12 +112,14 @@ TEST_P(Batch, ASampleDependsNeitherOnItsNeighboursNorOnItsPlace) {
 }
 
 TEST_P(Batch, NoSamplesAreNoWork) {
-    const motion all(model().dof());
+    const sampled_motion all(model().dof());
     EXPECT_EQ(regressors(all, 0, 0).size(), 0);
     EXPECT_EQ(torques(all, 0, 0).size(), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(AllRobots, Batch, testing::ValuesIn(robots_and_effects()),
                          [](const testing::TestParamInfo<std::string>& robot) { return robot.param; });
+
+}  // namespace
 
 }  // namespace idim::test

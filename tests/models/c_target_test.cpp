@@ -16,7 +16,7 @@ namespace idim::test {
 
 namespace {
 
-constexpr int states = 20;
+constexpr int compared_states = 20;
 
 using motion_function = void(const double*, const double*, const double*, double*);
 using inverse_function = void(const double*, const double*, const double*, const double*, double*);
@@ -52,7 +52,7 @@ class CTarget : public testing::TestWithParam<std::string> {
     template <class F>
     static void at_random_states(const F& check) {
         std::mt19937_64 random(31);
-        for (int k = 0; k < states; ++k) {
+        for (int k = 0; k < compared_states; ++k) {
             check(random_state(robot().cpp.dof(), random));
         }
     }
@@ -60,8 +60,6 @@ class CTarget : public testing::TestWithParam<std::string> {
     /// Parameters of both signs: what is compared is rounding, whatever the robot.
     static Eigen::VectorXd parameters() { return Eigen::VectorXd::LinSpaced(robot().cpp.n_base(), -0.7, 1.9); }
 };
-
-}  // namespace
 
 TEST_P(CTarget, HasTheBitsOfTheCppTargetInDoublePrecision) {
     const c_library& c = robot().c;
@@ -166,7 +164,7 @@ TEST(CTargetOfEffects, EveryFunctionAnEffectMayCallHasTheBitsOfTheCppTarget) {
                 "inverse_dynamics");
     const Eigen::VectorXd chi = Eigen::VectorXd::LinSpaced(robot.cpp.n_base(), -0.7, 1.9);
     std::mt19937_64 random(32);
-    for (int k = 0; k < states; ++k) {
+    for (int k = 0; k < compared_states; ++k) {
         const joint_state s = random_state(2, random);
         const Eigen::VectorXd temp = Eigen::Vector2d(20.0 + k, 30.5 - k);
         Eigen::VectorXd tau(2);
@@ -174,5 +172,7 @@ TEST(CTargetOfEffects, EveryFunctionAnEffectMayCallHasTheBitsOfTheCppTarget) {
         EXPECT_EQ(tau, robot.cpp.inverse_dynamics(s, chi, 0.3 * k, temp));
     }
 }
+
+}  // namespace
 
 }  // namespace idim::test

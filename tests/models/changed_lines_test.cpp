@@ -96,8 +96,6 @@ std::set<std::string> names_defined(const std::vector<rendered_file>& files) {
     return names;
 }
 
-}  // namespace
-
 TEST_F(ChangedLines, OfALengthOfTheScaraHoldThatLength) {
     change("scara", "L: 0.5", "L: 0.45", "L: 0.55");  // not from 0.5, where 2 L = 1 saves a product
     for (const std::string& line : changed()) {
@@ -168,5 +166,7 @@ TEST_F(ChangedLines, OfAControlGainAreTheHashAlone) {
         EXPECT_TRUE(is_hash(line)) << line;
     }
 }
+
+}  // namespace
 
 }  // namespace idim::test

@@ -21,7 +21,7 @@ namespace {
 
 // Of the largest torque of all states. The oracle's drifts are fourth differences over milliradians: 1e-12.
 constexpr double against_mujoco = 1e-10;
-constexpr double against_itself = 1e-10;
+constexpr double loops_against_themselves = 1e-10;
 
 struct loop_robot {
     const char* name;
@@ -34,7 +34,7 @@ std::ostream& operator<<(std::ostream& stream, const loop_robot& robot) {
     return stream << robot.name;
 }
 
-const loop_robot robots[] = {
+const loop_robot loop_robots[] = {
     {"FiveBarUnderGravity",
      "name: five_bar\ngravity: [0, -9.81, 0]\nconstants: {L: 0.3}\njoints:\n"
      "  - {name: j1, theta: q + 0.2}\n"
@@ -116,8 +116,8 @@ const loop_robot robots[] = {
 };
 
 /// A robot with plausible links, and the same in MuJoCo.
-struct robot_under_test {
-    robot_under_test(const std::string& text, const std::vector<int>& fourth, std::uint64_t seed)
+struct loops_under_test {
+    loops_under_test(const std::string& text, const std::vector<int>& fourth, std::uint64_t seed)
         : random(seed), file(folder.write("robot.yaml", text)), description(generator::read_robot(file)), model(file) {
         links = plausible_links(static_cast<int>(description.joints.size()), random);
         oracle = std::make_unique<mujoco_loops>(mujoco_loops_of(description, links, fourth));
@@ -157,7 +157,7 @@ struct robot_under_test {
     value_table standard;
 };
 
-/// The first of `robots` by Lagrange's equations, its coupler where two circles intersect.
+/// The first of `loop_robots` by Lagrange's equations, its coupler where two circles intersect.
 class five_bar_lagrangian {
   public:
     explicit five_bar_lagrangian(const std::vector<rigid_link>& links) : links_(links) {}
@@ -232,7 +232,7 @@ class five_bar_lagrangian {
 
 class ClosedLoop : public testing::TestWithParam<loop_robot> {};
 
-void expect_dynamics_of_mujoco(robot_under_test& robot, int count) {
+void expect_dynamics_of_mujoco(loops_under_test& robot, int count) {
     const test_model& model = robot.model;
     const Eigen::VectorXd chi = model.regroup(robot.standard);
     std::vector<joint_state> states;
@@ -250,13 +250,13 @@ void expect_dynamics_of_mujoco(robot_under_test& robot, int count) {
         EXPECT_LE((model.regressor(s) * chi - tau).cwiseAbs().maxCoeff(), against_mujoco * size);
         int pivot = -1;
         EXPECT_LE(deviation(model.forward_dynamics(s, model.inverse_dynamics(s, chi), chi, pivot), s.qdd),
-                  against_itself);
+                  loops_against_themselves);
         EXPECT_EQ(pivot, 0);
         const Eigen::VectorXd inertial = model.mass_matrix(s.q, chi) * s.qdd;
         const Eigen::VectorXd all = model.inverse_dynamics(s, chi);
         s.qdd.setZero();
-        EXPECT_LE(deviation(model.bias(s, chi), model.inverse_dynamics(s, chi)), against_itself);
-        EXPECT_LE(deviation(inertial, all - model.inverse_dynamics(s, chi)), against_itself);
+        EXPECT_LE(deviation(model.bias(s, chi), model.inverse_dynamics(s, chi)), loops_against_themselves);
+        EXPECT_LE(deviation(inertial, all - model.inverse_dynamics(s, chi)), loops_against_themselves);
         s.qd.setZero();
         EXPECT_LE((model.gravity(s.q, chi) - robot.oracle->inverse_dynamics(s)).cwiseAbs().maxCoeff(),
                   against_mujoco * size);
@@ -264,8 +264,8 @@ void expect_dynamics_of_mujoco(robot_under_test& robot, int count) {
 }
 
 /// Torques of random links at random states, a column for each: their rank is that of the regressor.
-Eigen::Index rank_by_svd(const robot_under_test& of, const std::vector<int>& fourth,
-                         const std::vector<joint_state>& states) {
+Eigen::Index rank_of_torques(const loops_under_test& of, const std::vector<int>& fourth,
+                             const std::vector<joint_state>& states) {
     std::mt19937_64 random(12);
     const auto n = static_cast<Eigen::Index>(of.model.dof());
     const auto columns = static_cast<Eigen::Index>(10 * of.links.size() + 5);
@@ -285,13 +285,13 @@ Eigen::Index rank_by_svd(const robot_under_test& of, const std::vector<int>& fou
     return rank;
 }
 
-void expect_rank_of_mujoco(robot_under_test& robot, const std::vector<int>& fourth) {
+void expect_rank_of_mujoco(loops_under_test& robot, const std::vector<int>& fourth) {
     std::vector<joint_state> states;
     while (states.size() * static_cast<std::size_t>(robot.model.dof()) < 12 * robot.links.size()) {
         states.push_back(robot.state());
     }
     const generator::base_report& base = robot.model.generated().base;
-    EXPECT_EQ(static_cast<Eigen::Index>(base.parameters.size()), rank_by_svd(robot, fourth, states));
+    EXPECT_EQ(static_cast<Eigen::Index>(base.parameters.size()), rank_of_torques(robot, fourth, states));
     EXPECT_EQ(base.exact_rank, base.qr_rank);
 }
 
@@ -301,21 +301,19 @@ bool calls(const generator::generated_model& model, const std::string& function)
     });
 }
 
-}  // namespace
-
 TEST_P(ClosedLoop, HasTheDynamicsOfMujoco) {
-    robot_under_test robot(GetParam().text, GetParam().fourth, 31);
+    loops_under_test robot(GetParam().text, GetParam().fourth, 31);
     expect_dynamics_of_mujoco(robot, 20);
     EXPECT_EQ(calls(robot.model.generated(), "sqrt("), GetParam().has_roots);
 }
 
 TEST_P(ClosedLoop, HasAsManyBaseParametersAsTheRegressorHasRank) {
-    robot_under_test robot(GetParam().text, GetParam().fourth, 32);
+    loops_under_test robot(GetParam().text, GetParam().fourth, 32);
     expect_rank_of_mujoco(robot, GetParam().fourth);
 }
 
 TEST_P(ClosedLoop, KeepsItsEnergyWhenNothingDrivesIt) {
-    robot_under_test robot(GetParam().text, GetParam().fourth, 33);
+    loops_under_test robot(GetParam().text, GetParam().fourth, 33);
     const Eigen::VectorXd chi = robot.model.regroup(robot.standard);
     joint_state s = robot.state();
     const double start = robot.oracle->energy(s.q, s.qd);
@@ -338,13 +336,13 @@ TEST_P(ClosedLoop, KeepsItsEnergyWhenNothingDrivesIt) {
     EXPECT_NEAR(robot.oracle->energy(s.q, s.qd), start, 1e-8 * std::max(1.0, std::abs(start)));
 }
 
-INSTANTIATE_TEST_SUITE_P(Robots, ClosedLoop, testing::ValuesIn(robots),
+INSTANTIATE_TEST_SUITE_P(Robots, ClosedLoop, testing::ValuesIn(loop_robots),
                          [](const testing::TestParamInfo<loop_robot>& robot) { return robot.param.name; });
 
 TEST(ClosedLoops, Sr400HasTheDynamicsAndTheRankOfMujoco) {
     const std::string text = with_effects("sr400", "[]");
     constexpr int shoulder = 1;  // the axes of j2 and j7 are one
-    robot_under_test robot(text, {shoulder}, 34);
+    loops_under_test robot(text, {shoulder}, 34);
     expect_dynamics_of_mujoco(robot, 10);
     expect_rank_of_mujoco(robot, {shoulder});
     EXPECT_FALSE(calls(robot.model.generated(), "sqrt("));
@@ -371,13 +369,13 @@ TEST(ClosedLoops, FiveBarOfTheFolderHasTheDynamicsAndTheRankOfMujoco) {
     std::string text = with_effects("five_bar", "[]");
     text = replaced(text, "{a1: 0.063, a2: 0.075, a3: 0.075, a4: 0.063, a5: 0.025}",
                     "{a1: 0.63, a2: 0.75, a3: 0.75, a4: 0.63, a5: 0.25}");
-    robot_under_test robot(text, {}, 35);
+    loops_under_test robot(text, {}, 35);
     expect_dynamics_of_mujoco(robot, 20);
     expect_rank_of_mujoco(robot, {});
 }
 
 TEST(ClosedLoops, FiveBarHasTheTorquesOfTheLagrangianOfCirclesThatIntersect) {
-    robot_under_test robot(robots[0].text, {}, 36);
+    loops_under_test robot(loop_robots[0].text, {}, 36);
     const Eigen::VectorXd chi = robot.model.regroup(robot.standard);
     const five_bar_lagrangian oracle(robot.links);
     for (int k = 0; k < 10; ++k) {
@@ -389,10 +387,10 @@ TEST(ClosedLoops, FiveBarHasTheTorquesOfTheLagrangianOfCirclesThatIntersect) {
 
 TEST(ClosedLoops, FrictionOfAPassiveJointActsThroughItsRates) {
     const std::string text =
-        std::string(robots[0].text) +
+        std::string(loop_robots[0].text) +
         "effects: [{effect: viscous_friction, joints: [j3]}, {effect: coulomb_friction, joints: "
         "[j4]},\n          {effect: rotor_inertia, joints: [j4]}, {effect: spring, joints: [j3]}]\n";
-    robot_under_test robot(text, {}, 37);
+    loops_under_test robot(text, {}, 37);
     const Eigen::VectorXd chi =
         robot.model.regroup({{"Fv_j3", 0.3}, {"Fc_j4", 0.7}, {"Ia_j4", 0.2}, {"K_j3", 1.5}, {"K0_j3", -0.4}});
     for (int k = 0; k < 20; ++k) {
@@ -406,13 +404,14 @@ TEST(ClosedLoops, FrictionOfAPassiveJointActsThroughItsRates) {
         EXPECT_LE(deviation(robot.model.regressor(s) * chi, tau), against_mujoco);
         joint_state still = s;
         still.qdd.setZero();
-        EXPECT_LE(deviation(robot.model.bias(still, chi), robot.model.inverse_dynamics(still, chi)), against_itself);
+        EXPECT_LE(deviation(robot.model.bias(still, chi), robot.model.inverse_dynamics(still, chi)),
+                  loops_against_themselves);
     }
 }
 
 TEST(ClosedLoops, PassiveJointsHaveNoFrictionUnlessItIsDeclared) {
     const temporary_folder folder;
-    const std::string text = std::string(robots[0].text) + "effects: [rotor_inertia, viscous_friction]\n";
+    const std::string text = std::string(loop_robots[0].text) + "effects: [rotor_inertia, viscous_friction]\n";
     const generator::base_report base = generator::find_base(folder.write("robot.yaml", text), templates_folder);
     for (const auto& parameter : base.parameters) {
         EXPECT_EQ(parameter.name.find("Fv_"), std::string::npos) << parameter.name;
@@ -421,7 +420,7 @@ TEST(ClosedLoops, PassiveJointsHaveNoFrictionUnlessItIsDeclared) {
 }
 
 TEST(ClosedLoops, APositionWhereALoopDoesNotCloseHasNoValueAndIsTold) {
-    robot_under_test robot(robots[0].text, {}, 38);
+    loops_under_test robot(loop_robots[0].text, {}, 38);
     const c_library c(robot.file);
     const auto closure = [&c](const Eigen::VectorXd& q) {
         double closed = 0.0;
@@ -445,5 +444,7 @@ TEST(ClosedLoops, APositionWhereALoopDoesNotCloseHasNoValueAndIsTold) {
         EXPECT_NEAR(closure(s.q), std::pow(std::sin(angle), 2), 1e-12);
     }
 }
+
+}  // namespace
 
 }  // namespace idim::test

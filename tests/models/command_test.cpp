@@ -119,8 +119,6 @@ void expect_one_line(const std::string& text) {
     EXPECT_EQ(text.rfind("idim: ", 0), 0u) << text;
 }
 
-}  // namespace
-
 TEST_P(BadRobot, IsRefusedInOneLineAndNothingIsWritten) {
     const temporary_folder folder;
     const std::string file = folder.write("robot.yaml", GetParam().text);
@@ -197,5 +195,7 @@ TEST(Command, RankThatCannotBeProvenFailsWithBothFigures) {
     EXPECT_NE(result.err.find("8 in exact arithmetic"), std::string::npos) << result.err;
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "model"));
 }
+
+}  // namespace
 
 }  // namespace idim::test

@@ -112,12 +112,6 @@ TEST_F(ConsistencyCommand, WhatCannotBeIsNamedInOneLine) {
     EXPECT_NE(refusal({"--mass-bounds", ":0.1", "--floor", "1"}).find("mass of the link of slide"), std::string::npos);
 }
 
-#define IDIM_REQUIRE_DATA(variable, name)                                                       \
-    const auto variable = test_support::shared_data(name);                                      \
-    if (!variable) {                                                                            \
-        GTEST_SKIP() << name << " is not here: set IDIM_DATA to the folder of measured robots"; \
-    }
-
 /// Consistent parameters of a measured robot, proven optimal, with M(q) > 0 everywhere.
 void expect_consistent(const json& found, bool full = true) {
     const json& consistency = found["consistency"];

@@ -21,7 +21,7 @@ struct coupled_chain {
     Eigen::VectorXd offset;
 };
 
-std::string replaced(const std::string& row, const std::string& variable) {
+std::string row_with(const std::string& row, const std::string& variable) {
     std::string text = row;
     return "  - " + text.replace(text.find('@'), 1, variable) + "\n";
 }
@@ -29,7 +29,7 @@ std::string replaced(const std::string& row, const std::string& variable) {
 std::string coupled_text(const coupled_chain& chain) {
     std::string text = "name: coupled\njoints:\n";
     for (std::size_t i = 0; i < chain.rows.size(); ++i) {
-        text += replaced(chain.rows[i], "\"" + chain.variables[i] + "\"");
+        text += row_with(chain.rows[i], "\"" + chain.variables[i] + "\"");
     }
     return text;
 }
@@ -37,7 +37,7 @@ std::string coupled_text(const coupled_chain& chain) {
 kdl_robot open_chain(const coupled_chain& chain, const std::vector<rigid_link>& links) {
     std::string text = "name: chain\njoints:\n";
     for (const std::string& row : chain.rows) {
-        text += replaced(row, "q");
+        text += row_with(row, "q");
     }
     const temporary_folder folder;
     return {mdh_table_of(generator::read_robot(folder.write("chain.yaml", text))), links};

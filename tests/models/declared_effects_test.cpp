@@ -13,13 +13,14 @@
 #include "idim/recorded_states.hpp"
 #include "oracles/kdl_robot.hpp"
 #include "support/robot_files.hpp"
+#include "support/sign.hpp"
 #include "support/test_model.hpp"
 
 namespace idim::test {
 
 namespace {
 
-const char* const arm =
+const char* const bare_arm =
     "name: arm\n"
     "joints:\n"
     "  - {name: j1, theta: q}\n"
@@ -27,10 +28,6 @@ const char* const arm =
     "  - {name: j3, theta: q, d: 0.4}\n"
     "effects:\n"
     "  - viscous_friction\n";
-
-double sign(double x) {
-    return static_cast<double>(x > 0.0) - static_cast<double>(x < 0.0);
-}
 
 /// What a closed form may depend on beside the motion.
 struct conditions {
@@ -42,7 +39,7 @@ struct conditions {
 class declared_arm {
   public:
     explicit declared_arm(const std::string& effects)
-        : file_(folder_.write("arm.yaml", arm + effects)),
+        : file_(folder_.write("arm.yaml", bare_arm + effects)),
           model(file_),
           table(mdh_table_of(generator::read_robot(file_))) {
         std::mt19937_64 random(31);
@@ -111,7 +108,7 @@ void expect_torque(const declared_arm& robot, const closed_form& torque, const c
 }
 
 /// Sums of sines with their derivatives.
-joint_state motion(double t, double phase = 0.0) {
+joint_state smooth_motion(double t, double phase = 0.0) {
     const double pi = M_PI;
     joint_state s{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
     const double frequency[3][3] = {{0.31, 0.53, 0.87}, {0.27, 0.61, 0.97}, {0.37, 0.47, 0.79}};
@@ -141,7 +138,7 @@ filtered_samples recorded(const std::function<Eigen::VectorXd(double)>& torque, 
     }
     for (Eigen::Index k = 0; k < samples; ++k) {
         const double t = static_cast<double>(k) / log.rate;
-        const joint_state s = motion(t, phase);
+        const joint_state s = smooth_motion(t, phase);
         log.t[k] = t;
         log.q.row(k) = s.q;
         log.qd.row(k) = s.qd;
@@ -174,9 +171,9 @@ TEST(DeclaredEffect, DriveGainErrorScalesTheTorqueOfItsJoint) {
         return Eigen::VectorXd(gain.cwiseProduct(Eigen::Vector3d(robot.rigid(s) + robot.viscous(s))));
     };
     expect_torque(robot, torque);
-    expect_recovered(robot, {recorded([&](double t) { return torque(motion(t), {}); })}, 1e-9);
+    expect_recovered(robot, {recorded([&](double t) { return torque(smooth_motion(t), {}); })}, 1e-9);
     const declared_arm plain("");
-    const Eigen::VectorXd q = motion(0.3).q;
+    const Eigen::VectorXd q = smooth_motion(0.3).q;
     EXPECT_LE(
         deviation(robot.model.mass_matrix(q, robot.chi()), gain.asDiagonal() * plain.model.mass_matrix(q, plain.chi())),
         1e-12);
@@ -191,7 +188,7 @@ TEST(DeclaredEffect, BaseTiltTurnsGravityAboutXThenY) {
         return Eigen::VectorXd(robot.rigid(s) + robot.viscous(s));
     };
     expect_torque(robot, torque);
-    expect_recovered(robot, {recorded([&](double t) { return torque(motion(t), {}); })}, 1e-8);
+    expect_recovered(robot, {recorded([&](double t) { return torque(smooth_motion(t), {}); })}, 1e-8);
     // The first axis no longer stands upright, so that gravity tells of the first moments about it.
     EXPECT_GT(robot.model.n_base(), declared_arm("").model.n_base());
 }
@@ -215,12 +212,12 @@ TEST(DeclaredEffect, PayloadCountsFromItsStartToBeforeItsEnd) {
     EXPECT_EQ(robot.model.interface().needs_time, 1);
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(3);
     for (const auto& [t, on] : {std::pair{1.0, true}, {2.0, false}, {std::nextafter(2.0, 1.0), true}}) {
-        const joint_state s = motion(0.2);
+        const joint_state s = smooth_motion(0.2);
         EXPECT_LE(deviation(robot.model.inverse_dynamics(s, robot.chi(), t, none), torque(s, {on ? 1.5 : 0.0, {}})),
                   1e-10);
     }
     // Where the load comes and goes the decimation filter smears both sides alike.
-    expect_recovered(robot, {recorded([&](double t) { return torque(motion(t), {t, {}}); })}, 1e-7);
+    expect_recovered(robot, {recorded([&](double t) { return torque(smooth_motion(t), {t, {}}); })}, 1e-7);
 }
 
 TEST(DeclaredEffect, LoadDependentFrictionFollowsTheTorqueOfTheLinks) {
@@ -236,7 +233,7 @@ TEST(DeclaredEffect, LoadDependentFrictionFollowsTheTorqueOfTheLinks) {
     };
     expect_torque(robot, torque);
     // The iteration ends where the torque moves by less than 1e-9; parameters are worse conditioned than the torque.
-    expect_recovered(robot, {recorded([&](double t) { return torque(motion(t), {}); })}, 1e-6);
+    expect_recovered(robot, {recorded([&](double t) { return torque(smooth_motion(t), {}); })}, 1e-6);
 }
 
 TEST(DeclaredEffect, PreslidingHysteresisRunsItsBristles) {
@@ -250,13 +247,13 @@ TEST(DeclaredEffect, PreslidingHysteresisRunsItsBristles) {
     });
     std::vector<double> z;  // Dahl's bristle, exact while the speed is held
     for (int k = 0; k < 6000; ++k) {
-        const double v = motion(k / 500.0).qd[1];
-        const double next_v = k == 0 ? 0.0 : motion((k - 1) / 500.0).qd[1];
+        const double v = smooth_motion(k / 500.0).qd[1];
+        const double next_v = k == 0 ? 0.0 : smooth_motion((k - 1) / 500.0).qd[1];
         z.push_back(k == 0 ? sign(v) : sign(next_v) + (z.back() - sign(next_v)) * std::exp(-std::abs(next_v) / 25.0));
     }
     const filtered_samples log = recorded([&](double t) {
         const auto k = static_cast<std::size_t>(std::lround(t * 500.0));
-        return torque(motion(t), {t, Eigen::VectorXd::Constant(1, z[k])});
+        return torque(smooth_motion(t), {t, Eigen::VectorXd::Constant(1, z[k])});
     });
     expect_recovered(robot, {log}, 1e-8);
     EXPECT_LE(deviation(model_torques(robot.model.interface(), log, robot.chi()), log.tau), 1e-10);
@@ -277,13 +274,13 @@ TEST(DeclaredEffect, BacklashCarriesNoLoadInsideItsGap) {
     expect_torque(robot, torque, [](const joint_state& s, const conditions&) {
         return Eigen::VectorXd(Eigen::VectorXd::Constant(1, s.q[0] > 0.0 ? 0.025 : 0.01));
     });
-    std::vector<double> x = {0.025 * sign(motion(0.0).qd[2])};
+    std::vector<double> x = {0.025 * sign(smooth_motion(0.0).qd[2])};
     for (int k = 1; k < 6000; ++k) {
-        x.push_back(std::clamp(x.back() + motion((k - 1) / 500.0).qd[2] / 500.0, -0.025, 0.025));
+        x.push_back(std::clamp(x.back() + smooth_motion((k - 1) / 500.0).qd[2] / 500.0, -0.025, 0.025));
     }
     const filtered_samples log = recorded([&](double t) {
         const auto k = static_cast<std::size_t>(std::lround(t * 500.0));
-        return torque(motion(t), {t, Eigen::VectorXd::Constant(1, x[k])});
+        return torque(smooth_motion(t), {t, Eigen::VectorXd::Constant(1, x[k])});
     });
     expect_recovered(robot, {log}, 1e-6);
 }
@@ -291,8 +288,8 @@ TEST(DeclaredEffect, BacklashCarriesNoLoadInsideItsGap) {
 TEST(DeclaredEffect, TorqueDelayTakesTheRowsOfAnEarlierState) {
     declared_arm robot("  - {effect: torque_delay, joints: [j2], shape: {Td: 0.0137}}\n");
     const auto torque = [&](double t) {
-        const joint_state late = motion(t - 0.0137);
-        const joint_state now = motion(t);
+        const joint_state late = smooth_motion(t - 0.0137);
+        const joint_state now = smooth_motion(t);
         Eigen::VectorXd tau = robot.rigid(now) + robot.viscous(now);
         tau[1] = (robot.rigid(late) + robot.viscous(late))[1];
         return tau;
@@ -363,7 +360,7 @@ TEST(DeclaredEffect, PhaseOfAPeriodicDisturbanceIsEachLogsOwn) {
     const auto log_with = [&](double phase) {
         return recorded(
             [&robot, phase](double t) {
-                const joint_state s = motion(t, phase);
+                const joint_state s = smooth_motion(t, phase);
                 return Eigen::VectorXd(robot.rigid(s) + robot.viscous(s) +
                                        1.7 * std::cos(9.0 * t + phase) * Eigen::Vector3d::Unit(1));
             },

@@ -16,7 +16,6 @@ namespace idim::test {
 namespace {
 
 using derivatives_function = void(const double*, const double*, const double*, const double*, double*, double*);
-using row_major = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 class DerivativesOf : public testing::TestWithParam<std::string> {
   protected:
@@ -56,8 +55,6 @@ class DerivativesOf : public testing::TestWithParam<std::string> {
     value_table all_;
 };
 
-}  // namespace
-
 TEST_P(DerivativesOf, AreDifferencesOfTheTorquesOfKdl) {
     const Eigen::VectorXd chi = model_.regroup(all_);
     const Eigen::Index n = model_.dof();
@@ -78,5 +75,7 @@ TEST_P(DerivativesOf, AreDifferencesOfTheTorquesOfKdl) {
 INSTANTIATE_TEST_SUITE_P(Robots, DerivativesOf,
                          testing::Values("scara", "emps", "stanford", "rx90", "ur5", "panda", "tiago"),
                          [](const auto& test) { return test.param; });
+
+}  // namespace
 
 }  // namespace idim::test

@@ -11,7 +11,7 @@ namespace idim::test {
 
 namespace {
 
-constexpr int runs = 20;
+constexpr int repeated_runs = 20;
 
 std::map<std::string, std::string> files_in(const std::filesystem::path& folder) {
     std::map<std::string, std::string> files;
@@ -35,8 +35,6 @@ std::string difference(const std::map<std::string, std::string>& a, const std::m
 class Determinism : public testing::TestWithParam<std::string> {};
 class GeneratedFolder : public testing::TestWithParam<std::string> {};
 
-}  // namespace
-
 TEST(AddressRandomisation, IsOnSoThatTheseTestsMeanSomething) {
     const std::string setting = read_text("/proc/sys/kernel/randomize_va_space");
     EXPECT_NE(setting.front(), '0') << "addresses are not randomised here: equal bytes would prove nothing";
@@ -45,7 +43,7 @@ TEST(AddressRandomisation, IsOnSoThatTheseTestsMeanSomething) {
 TEST_P(Determinism, FreshProcessesWriteTheSameBytes) {
     const temporary_folder folder;
     std::map<std::string, std::string> first;
-    for (int run = 0; run < runs; ++run) {
+    for (int run = 0; run < repeated_runs; ++run) {
         const std::string out = (folder.path() / std::to_string(run)).string();
         const command_result result = run_idim({"generate", robot_file(GetParam()), "-o", out});
         ASSERT_EQ(result.status, 0) << result.err;
@@ -77,5 +75,7 @@ TEST_P(GeneratedFolder, IsWhatTheGeneratorWritesNow) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Robots, GeneratedFolder, testing::ValuesIn(folders_in("generated")));
+
+}  // namespace
 
 }  // namespace idim::test

@@ -50,8 +50,6 @@ std::vector<std::string> names(const json& list) {
 
 using name_list = std::vector<std::string>;
 
-}  // namespace
-
 TEST_F(DiffCommand, AFolderAndItsDescriptionAreTheSame) {
     const json found = compared(generated_, scara_);
     EXPECT_EQ(found["same"], true);
@@ -182,8 +180,6 @@ TEST_F(DiffCommand, MarkdownFoldsDetailsAndLetsNoNameBeMarkup) {
     EXPECT_EQ(count("<details>"), count("</details>"));
 }
 
-namespace {
-
 struct bad_folder {
     const char* name;
     const char* file;
@@ -216,8 +212,6 @@ const bad_folder bad_folders[] = {
      ": the code in this folder cannot be used: "},
 };
 
-}  // namespace
-
 TEST_P(BadFolder, IsRefusedInOneLineThatSaysWhy) {
     const std::string folder = edited(GetParam().file, GetParam().from, GetParam().to);
     const command_result result = run_idim({"diff", folder, scara_});
@@ -236,5 +230,7 @@ TEST_F(DiffCommand, WhatIsNeitherFolderNorDescriptionIsBadInput) {
         EXPECT_EQ(run_idim({"diff", path, scara_}).status, 2) << path;
     }
 }
+
+}  // namespace
 
 }  // namespace idim::test

@@ -40,8 +40,6 @@ class GenerateCheck : public testing::Test {
     temporary_folder folder_;
 };
 
-}  // namespace
-
 TEST_F(GenerateCheck, ACurrentFolderPassesInSilence) {
     const command_result result = check();
     EXPECT_EQ(result.status, 0);
@@ -79,23 +77,23 @@ TEST_F(GenerateCheck, JsonHasTheFilesAndTheDiff) {
     const std::string file = (folder_.path() / "check.json").string();
     const command_result text = check({"--json", file});
     EXPECT_EQ(text.status, 1);
-    const auto json = nlohmann::json::parse(read_text(file));
-    EXPECT_EQ(json["current"], false);
-    EXPECT_EQ(json["differences"][0], (nlohmann::json{{"file", "bias.hpp"}, {"state", "differs"}}));
-    EXPECT_EQ(json["differences"].size(), 4u);
-    const std::string diff = json["diff"];
+    const auto report = nlohmann::json::parse(read_text(file));
+    EXPECT_EQ(report["current"], false);
+    EXPECT_EQ(report["differences"][0], (nlohmann::json{{"file", "bias.hpp"}, {"state", "differs"}}));
+    EXPECT_EQ(report["differences"].size(), 4u);
+    const std::string diff = report["diff"];
     ASSERT_GE(text.out.size(), diff.size());
     EXPECT_EQ(text.out.substr(text.out.size() - diff.size()), diff);
-    EXPECT_EQ(nlohmann::json::parse(check({"--json", "-"}).out), json);
+    EXPECT_EQ(nlohmann::json::parse(check({"--json", "-"}).out), report);
 }
 
 TEST_F(GenerateCheck, JsonOfACurrentFolderIsEmptyOfDifferences) {
     const command_result result = check({"--json", "-"});
     EXPECT_EQ(result.status, 0);
-    const auto json = nlohmann::json::parse(result.out);
-    EXPECT_EQ(json["current"], true);
-    EXPECT_TRUE(json["differences"].empty());
-    EXPECT_EQ(json["diff"], "");
+    const auto report = nlohmann::json::parse(result.out);
+    EXPECT_EQ(report["current"], true);
+    EXPECT_TRUE(report["differences"].empty());
+    EXPECT_EQ(report["diff"], "");
 }
 
 TEST_F(GenerateCheck, BytesThatAreNoTextDoNotBreakTheJson) {
@@ -113,5 +111,7 @@ TEST_F(GenerateCheck, AFolderMadeCheapForAnotherTargetIsStaleAndOneForTheSameIsC
     EXPECT_EQ(check().status, 1);
     EXPECT_EQ(check({"--cost", "gpu"}).status, 2);
 }
+
+}  // namespace
 
 }  // namespace idim::test

@@ -11,7 +11,8 @@
 #include "support/robot_files.hpp"
 #include "support/test_model.hpp"
 
-namespace idim::test {
+/// A namespace of its own: the names of the generator that it takes in are for this file alone.
+namespace idim::test::graph_and_code {
 
 namespace {
 
@@ -94,8 +95,6 @@ std::vector<model_form> all_forms() {
 
 class GraphAndCode : public testing::TestWithParam<std::string> {};
 
-}  // namespace
-
 TEST_P(GraphAndCode, HaveTheSameValuesInEveryForm) {
     const staged_robot staged(GetParam());
     const test_model compiled(robot_file(GetParam()));
@@ -138,4 +137,6 @@ INSTANTIATE_TEST_SUITE_P(Robots, GraphAndCode,
                          testing::Values("scara", "emps", "stanford", "tx40", "panda", "denso_vp6242g"),
                          [](const testing::TestParamInfo<std::string>& robot) { return robot.param; });
 
-}  // namespace idim::test
+}  // namespace
+
+}  // namespace idim::test::graph_and_code

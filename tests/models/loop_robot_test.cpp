@@ -19,9 +19,9 @@ namespace {
 using json = nlohmann::json;
 
 /// Of a desk-top robot's size; M is positive definite wherever the simulation goes, or it would end there.
-const std::map<std::string, double> truth = {{"ZZ1R", 0.02},   {"Fv1", 0.05},     {"Fc1", 0.1},      {"ZZ2R", 0.03},
-                                             {"Fv2", 0.04},    {"Fc2", 0.08},     {"ZZ_j3R", 0.004}, {"MX_j3R", 0.03},
-                                             {"MY_j3", 0.002}, {"ZZ_j4R", 0.003}, {"MY_j4", -0.001}};
+const std::map<std::string, double> loop_truth = {
+    {"ZZ1R", 0.02},    {"Fv1", 0.05},    {"Fc1", 0.1},     {"ZZ2R", 0.03},    {"Fv2", 0.04},    {"Fc2", 0.08},
+    {"ZZ_j3R", 0.004}, {"MX_j3R", 0.03}, {"MY_j3", 0.002}, {"ZZ_j4R", 0.003}, {"MY_j4", -0.001}};
 
 class LoopRobot : public testing::Test {
   protected:
@@ -29,7 +29,7 @@ class LoopRobot : public testing::Test {
         robot_ = path("five_bar.yaml");
         std::ofstream(robot_) << read_text(robot_file("five_bar"))
                               << "control: {law: pd_cascade, rate: 500, wn: [10, 10], zeta: [1, 1]}\n";
-        std::ofstream(path("truth.json")) << json(truth);
+        std::ofstream(path("truth.json")) << json(loop_truth);
     }
 
     std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
@@ -65,12 +65,12 @@ TEST_F(LoopRobot, IsIdentifiedFromItsOwnSimulation) {
             run_idim({"identify", robot_, path("log.csv"), "--method", method, "--json", path("result.json")});
         ASSERT_EQ(identified.status, 0) << identified.err;
         const json result = json::parse(read_text(path("result.json")));
-        ASSERT_EQ(result["parameters"].size(), truth.size());
+        ASSERT_EQ(result["parameters"].size(), loop_truth.size());
         for (const json& parameter : result["parameters"]) {
             const std::string name = parameter["name"];
             // One draw of eleven parameters, no statement of coverage: the friction of j1, of which filtered reversals
             // take a few parts in a thousand, lies up to 3.8 deviations off in others.
-            EXPECT_NEAR(parameter["value"].get<double>(), truth.at(name), 4.0 * parameter["std"].get<double>())
+            EXPECT_NEAR(parameter["value"].get<double>(), loop_truth.at(name), 4.0 * parameter["std"].get<double>())
                 << method << " " << name;
         }
     }

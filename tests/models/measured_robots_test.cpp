@@ -44,12 +44,6 @@ void expect_emps(const json& result, double share) {
     EXPECT_NEAR(found.at("off1"), -3.17, share * 3.17);
 }
 
-#define IDIM_REQUIRE_DATA(variable, name)                                                       \
-    const auto variable = test_support::shared_data(name);                                      \
-    if (!variable) {                                                                            \
-        GTEST_SKIP() << name << " is not here: set IDIM_DATA to the folder of measured robots"; \
-    }
-
 TEST_F(MeasuredRobot, EmpsWithThePublishedFilterHasThePublishedParameters) {
     IDIM_REQUIRE_DATA(log, "emps/ident.csv.gz");
     const json result = run({"identify", robot_file("emps"), log->string(), "--method", "ols", "--cutoff", "100",

@@ -20,7 +20,7 @@ namespace idim::test {
 
 namespace {
 
-constexpr int states = 50;
+constexpr int checked_states = 50;
 // Some hundred operations on both sides, each with rounding 1e-16 of its terms, and the terms may cancel in part.
 constexpr double against_kdl = 1e-10;
 constexpr double against_itself = 1e-11;
@@ -93,7 +93,7 @@ class ModelOf : public testing::TestWithParam<std::string> {
     void expect_small(double tolerance, const F& deviation_at) {
         std::mt19937_64 random(7);
         double largest = 0.0;
-        for (int k = 0; k < states; ++k) {
+        for (int k = 0; k < checked_states; ++k) {
             const double found = deviation_at(random_state(robot().model.dof(), random));
             ASSERT_LE(found, tolerance) << "state " << k;
             largest = std::max(largest, found);
@@ -134,8 +134,6 @@ double energy_drift(const robot_under_test& robot, joint_state state, double ste
     return drift / kinetic;
 }
 
-}  // namespace
-
 TEST_P(ModelOf, InverseDynamicsOfRigidLinksIsThatOfKdl) {
     expect_small(against_kdl, [](const joint_state& s) {
         return deviation(robot().model.inverse_dynamics(s, robot().chi_rigid), robot().oracle->inverse_dynamics(s));
@@ -159,7 +157,7 @@ TEST_P(ModelOf, MassMatrixIsThatOfKdlPlusTheInertiaOfTheDrives) {
 
 TEST_P(ModelOf, MassMatrixIsSymmetricAndPositiveDefiniteForPlausibleLinks) {
     std::mt19937_64 random(8);
-    for (int k = 0; k < states; ++k) {
+    for (int k = 0; k < checked_states; ++k) {
         const joint_state s = random_state(robot().model.dof(), random);
         for (const Eigen::VectorXd& chi : {robot().chi_rigid, robot().chi}) {
             const Eigen::MatrixXd M = robot().model.mass_matrix(s.q, chi);
@@ -256,5 +254,7 @@ TEST_P(ModelOf, SinglePrecisionAgreesToItsRounding) {
 
 INSTANTIATE_TEST_SUITE_P(AllRobots, ModelOf, testing::ValuesIn(open_robot_names()),
                          [](const testing::TestParamInfo<std::string>& robot) { return robot.param; });
+
+}  // namespace
 
 }  // namespace idim::test

@@ -31,7 +31,7 @@ std::ostream& operator<<(std::ostream& stream, const expected_counts& counts) {
     return stream << counts.robot;
 }
 
-const expected_counts table[] = {
+const expected_counts counts_of_robots[] = {
     {"scara", {{15, 9, 0}, {14, 8, 0}, {3, 3, 0}, {17, 11, 1}}, {{19, 11, 0}, {14, 8, 0}, {4, 3, 0}, {22, 12, 2}}},
     {"denso_vp6242g",
      {{233, 207, 0}, {381, 282, 0}, {119, 106, 0}, {384, 309, 5}},
@@ -63,8 +63,6 @@ void expect_within(const operation_count& found, const bound& most, const char* 
     EXPECT_LE(found.div, most.div) << model;
 }
 
-}  // namespace
-
 TEST_P(OperationCount, IsNoneAboveWhatWasReached) {
     const generator::operation_table found = rigid();
     const bounds& most = GetParam().reached;
@@ -84,9 +82,11 @@ TEST_P(OperationCount, SumsToNoMoreThanThatOfTheStudy) {
     EXPECT_LE(total(found.forward_dynamics), total(study.forward_dynamics));
 }
 
-INSTANTIATE_TEST_SUITE_P(Robots, OperationCount, testing::ValuesIn(table),
+INSTANTIATE_TEST_SUITE_P(Robots, OperationCount, testing::ValuesIn(counts_of_robots),
                          [](const testing::TestParamInfo<expected_counts>& counts) {
                              return std::string(counts.param.robot);
                          });
+
+}  // namespace
 
 }  // namespace idim::test

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "support/command.hpp"
+#include "support/sign.hpp"
 
 namespace idim::test {
 
@@ -18,8 +19,8 @@ namespace {
 
 using json = nlohmann::json;
 
-constexpr double rate = 200.0;     // Hz
-constexpr double duration = 40.0;  // s
+constexpr double log_rate = 200.0;  // Hz
+constexpr double duration = 40.0;   // s
 
 struct instant {
     double t = 0.0;
@@ -29,11 +30,7 @@ struct instant {
 /// Torque of both joints that the description does not have.
 using undeclared = std::function<std::array<double, 2>(const instant&)>;
 
-double sign(double x) {
-    return static_cast<double>(x > 0.0) - static_cast<double>(x < 0.0);
-}
-
-instant motion(double t, int which) {
+instant instant_at(double t, int which) {
     constexpr std::array<std::array<double, 4>, 4> frequency = {
         {{0.11, 0.23, 0.53, 0.89}, {0.13, 0.31, 0.61, 1.03}, {0.07, 0.19, 0.43, 0.97}, {0.17, 0.29, 0.67, 0.83}}};
     constexpr std::array<double, 4> amplitude = {0.8, 0.5, 0.25, 0.12};
@@ -77,9 +74,9 @@ std::string log_text(int which, unsigned seed, const undeclared& missing) {
     std::mt19937_64 random(seed);
     std::normal_distribution<double> normal;
     std::string text = "t,q1,q2,tau1,tau2\n";
-    const int samples = static_cast<int>(duration * rate);
+    const int samples = static_cast<int>(duration * log_rate);
     for (int k = 0; k < samples; ++k) {
-        const instant s = motion(k / rate, which);
+        const instant s = instant_at(k / log_rate, which);
         const std::array<double, 2> torque = scara_torque(s);
         const std::array<double, 2> extra = missing(s);
         text += fmt::format("{},{},{},{},{}\n", s.t, s.q[0] + 1e-6 * normal(random), s.q[1] + 1e-6 * normal(random),

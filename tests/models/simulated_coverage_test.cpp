@@ -3,34 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "idim/estimate.hpp"
 #include "idim/simulation.hpp"
+#include "oracles/scara_loop.hpp"
 #include "support/robot_files.hpp"
 #include "support/test_model.hpp"
 
 namespace idim::test {
 
 namespace {
-
-/// Sums of sines around the bandwidth of the two joints, 60 s at 200 Hz, eased in.
-log scara_reference() {
-    constexpr double slow[] = {0.03, 0.05, 0.08, 0.12, 0.17};
-    constexpr double fast[] = {0.11, 0.19, 0.31, 0.47, 0.67};
-    log reference;
-    reference.t = Eigen::VectorXd::LinSpaced(12001, 0.0, 60.0);
-    reference.qr = Eigen::MatrixXd::Zero(12001, 2);
-    for (Eigen::Index k = 0; k < reference.t.size(); ++k) {
-        const double t = reference.t[k];
-        const double ease = t < 4.0 ? 0.5 * (1.0 - std::cos(std::numbers::pi * t / 4.0)) : 1.0;
-        for (int i = 0; i < 5; ++i) {
-            reference.qr(k, 0) += ease * 2.0 * std::sin(2.0 * std::numbers::pi * slow[i] * t + (i + 1) * (i + 1));
-            reference.qr(k, 1) += ease * 0.8 * std::sin(2.0 * std::numbers::pi * fast[i] * t + (i + 1) * (i + 2));
-        }
-    }
-    return reference;
-}
 
 TEST(SimulatedCoverage, IntervalsOfTheWholeChainCoverTheTruthAtTheirRate) {
     constexpr int runs = 200;
@@ -42,7 +24,7 @@ TEST(SimulatedCoverage, IntervalsOfTheWholeChainCoverTheTruthAtTheirRate) {
     const Eigen::VectorXd wn = Eigen::Vector2d(1.0, 10.0);
     const pd_cascade law =
         tune_pd_cascade(200.0, wn, Eigen::Vector2d(1.0, 1.0), largest_inertia(model, truth), Eigen::Vector2d(1.0, 1.0));
-    const log reference = scara_reference();
+    const log reference = scara_reference(60.0);
     Eigen::VectorXd covered = Eigen::VectorXd::Zero(8);
     for (int run = 0; run < runs; ++run) {
         // After the filter the torque noise is 3 % of the torque, as in the paper.

@@ -17,7 +17,7 @@ namespace {
 
 using json = nlohmann::json;
 
-constexpr const char* arm =
+constexpr const char* rigid_arm =
     "name: soft_arm\n"
     "joints:\n"
     "  - {name: j1, alpha: pi/2, theta: q}\n"
@@ -27,14 +27,14 @@ constexpr const char* arm =
     "  - rotor_inertia\n"
     "  - viscous_friction\n"
     "  - coulomb_friction\n";
-const std::map<std::string, double> truth = {{"ZZ1R", 2.54}, {"MX1R", 3.6}, {"MY1", 0.0}, {"Fv1", 3.0},
-                                             {"Fc1", 2.0},   {"ZZ2", 0.3},  {"MX2", 0.8}, {"MY2", 0.0},
-                                             {"Ia2", 0.2},   {"Fv2", 1.0},  {"Fc2", 1.0}};
+const std::map<std::string, double> soft_truth = {{"ZZ1R", 2.54}, {"MX1R", 3.6}, {"MY1", 0.0}, {"Fv1", 3.0},
+                                                  {"Fc1", 2.0},   {"ZZ2", 0.3},  {"MX2", 0.8}, {"MY2", 0.0},
+                                                  {"Ia2", 0.2},   {"Fv2", 1.0},  {"Fc2", 1.0}};
 
 class SoftRobot : public testing::Test {
   protected:
     SoftRobot() {
-        std::ofstream(path("rigid.yaml")) << arm;
+        std::ofstream(path("rigid.yaml")) << rigid_arm;
         std::ofstream file(path("reference.csv"));
         file << "t,qr1,qr2\n" << std::setprecision(12);
         for (int k = 0; k <= 8000; ++k) {
@@ -48,7 +48,7 @@ class SoftRobot : public testing::Test {
     std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
 
     command_result simulate(const std::map<std::string, double>& parameters, const char* stiffness) const {
-        std::ofstream(path("soft.yaml")) << arm
+        std::ofstream(path("soft.yaml")) << rigid_arm
                                          << "  - {effect: joint_elasticity, joints: [j2], shape: {K: " << stiffness
                                          << "}}\n";
         std::ofstream(path("truth.json")) << json(parameters);
@@ -70,7 +70,7 @@ class SoftRobot : public testing::Test {
         for (const json& parameter : result["parameters"]) {
             const std::string name = parameter["name"];
             const bool inertial = name == "ZZ2" || name == "MX2" || name == "MY2" || name == "Ia2";
-            const double off = std::abs(parameter["value"].get<double>() - truth.at(name));
+            const double off = std::abs(parameter["value"].get<double>() - soft_truth.at(name));
             worst = std::max(worst, inertial ? off / parameter["std"].get<double>() : 0.0);
         }
         return worst;
@@ -80,18 +80,18 @@ class SoftRobot : public testing::Test {
 };
 
 TEST_F(SoftRobot, MovesAsARigidOneWhereItIsStiff) {
-    ASSERT_EQ(simulate(truth, "1e5").status, 0);
+    ASSERT_EQ(simulate(soft_truth, "1e5").status, 0);
     EXPECT_LT(distance(identified("rigid.yaml")), 4.0);  // one draw: no statement of coverage
 }
 
 TEST_F(SoftRobot, IsIdentifiedWithItsElasticityDeclaredAndNotWithout) {
-    ASSERT_EQ(simulate(truth, "1500").status, 0);  // the link swings at 11 Hz behind a motor that stands still
+    ASSERT_EQ(simulate(soft_truth, "1500").status, 0);  // the link swings at 11 Hz behind a motor that stands still
     EXPECT_GT(distance(identified("rigid.yaml")), 3.5);
     EXPECT_LT(distance(identified("soft.yaml")), 3.0);
 }
 
 TEST_F(SoftRobot, WithoutARotorIsRefusedBeforeAnythingIsWritten) {
-    std::map<std::string, double> no_rotor = truth;
+    std::map<std::string, double> no_rotor = soft_truth;
     no_rotor["Ia2"] = 0.0;
     const command_result simulated = simulate(no_rotor, "1e5");
     EXPECT_EQ(simulated.status, 3);

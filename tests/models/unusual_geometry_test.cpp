@@ -22,7 +22,7 @@ std::ostream& operator<<(std::ostream& stream, const unusual_robot& robot) {
     return stream << robot.name;
 }
 
-const unusual_robot robots[] = {
+const unusual_robot unusual_robots[] = {
     {"ObliqueAxesWithGammaAndB",
      "name: oblique\nconstants: {L: 0.3, a: 0.4, g: 0.6}\njoints:\n"
      "  - {name: j1, alpha: 0.2, d: 0.1, theta: q, r: 0.15}\n"
@@ -57,8 +57,6 @@ const unusual_robot robots[] = {
 };
 
 class UnusualGeometry : public testing::TestWithParam<unusual_robot> {};
-
-}  // namespace
 
 TEST_P(UnusualGeometry, HasTheDynamicsOfKdl) {
     const temporary_folder folder;
@@ -96,9 +94,11 @@ TEST_P(UnusualGeometry, ComparisonSeesAMillimetreAndAMilliradian) {
     EXPECT_GE(deviation(kdl_robot(off, links).inverse_dynamics(s), kdl_robot(table, links).inverse_dynamics(s)), 1e-7);
 }
 
-INSTANTIATE_TEST_SUITE_P(Robots, UnusualGeometry, testing::ValuesIn(robots),
+INSTANTIATE_TEST_SUITE_P(Robots, UnusualGeometry, testing::ValuesIn(unusual_robots),
                          [](const testing::TestParamInfo<unusual_robot>& robot) {
                              return std::string(robot.param.name);
                          });
+
+}  // namespace
 
 }  // namespace idim::test

@@ -12,7 +12,7 @@ namespace idim::test {
 namespace {
 
 /// Two joints; the second is turned by 1.5708.
-std::string arm() {
+std::string two_joint_urdf() {
     std::mt19937_64 random(81);
     const std::vector<rigid_link> bodies = plausible_links(2, random);
     urdf_text urdf("two-joints");
@@ -25,7 +25,7 @@ std::string arm() {
 
 TEST(UrdfCommand, BaseOfAUrdfPrintsItsParametersAndNotesWhatWasReadOtherwise) {
     const temporary_folder folder;
-    const std::string file = folder.write("arm.urdf", arm());
+    const std::string file = folder.write("arm.urdf", two_joint_urdf());
     const command_result result = run_idim({"base", file});
     EXPECT_EQ(result.status, 0);
     EXPECT_EQ(result.out.rfind("two_joints: ", 0), 0u) << result.out;
@@ -37,7 +37,7 @@ TEST(UrdfCommand, BaseOfAUrdfPrintsItsParametersAndNotesWhatWasReadOtherwise) {
 
 TEST(UrdfCommand, GenerateOfAUrdfIsThatOfAYamlWhichNamesItButForTheFilesName) {
     const temporary_folder folder;
-    const std::string bare = folder.write("arm.urdf", arm());
+    const std::string bare = folder.write("arm.urdf", two_joint_urdf());
     const std::string named = folder.write(
         "yaml/arm.yaml", "urdf: ../arm.urdf\neffects: [rotor_inertia, viscous_friction, coulomb_friction]\n");
     const std::string first = (folder.path() / "first").string();
@@ -51,7 +51,7 @@ TEST(UrdfCommand, GenerateOfAUrdfIsThatOfAYamlWhichNamesItButForTheFilesName) {
 
 TEST(UrdfCommand, BadUrdfIsBadInputInOneLineAndNothingIsWritten) {
     const temporary_folder folder;
-    std::string text = arm();
+    std::string text = two_joint_urdf();
     text.replace(text.find("value=\""), 7, "value=\"x");
     const std::string file = folder.write("arm.urdf", text);
     const std::filesystem::path out = folder.path() / "model";

@@ -18,7 +18,7 @@ namespace idim::test {
 
 namespace {
 
-constexpr double turn = 1.5707963267948966;
+constexpr double quarter_turn = 1.5707963267948966;
 
 /// Model and a-priori parameters of a URDF without effects.
 struct rigid_robot {
@@ -100,8 +100,9 @@ std::string humanoid() {
         add(s + "_shin", "revolute", s + "_thigh", {{0.0, 0.0, -0.4}, {}}, {0.0, 1.0, 0.0});
         add(s + "_foot", "fixed", s + "_shin", {{0.05, 0.0, -0.4}, {0.1, 0.0, 0.0}});
         add(s + "_shoulder", "revolute", "chest", {{0.0, side * 0.2, 0.3}, {}}, {0.0, 2.0, 0.0});
-        add(s + "_arm", "revolute", s + "_shoulder", {{0.0, side * 0.05, 0.0}, {turn, 0.0, 0.0}}, {0.0, -side, 0.0});
-        add(s + "_forearm", "continuous", s + "_arm", {{0.3, 0.0, 0.0}, {0.0, turn, 0.0}}, {1.0, 0.0, 0.0});
+        add(s + "_arm", "revolute", s + "_shoulder", {{0.0, side * 0.05, 0.0}, {quarter_turn, 0.0, 0.0}},
+            {0.0, -side, 0.0});
+        add(s + "_forearm", "continuous", s + "_arm", {{0.3, 0.0, 0.0}, {0.0, quarter_turn, 0.0}}, {1.0, 0.0, 0.0});
         add(s + "_hand", "fixed", s + "_forearm", {{0.25, 0.0, 0.02}, {0.4, 0.0, -0.2}});
     }
     urdf.massless_link("camera").joint("camera_joint", "fixed", "chest", "camera", {{0.1, 0.0, 0.4}, {0.0, 0.3, 0.0}});
@@ -118,10 +119,10 @@ std::string sliding_arm() {
         urdf.principal_link("l" + std::to_string(j), random);
     }
     urdf.joint("j1", "prismatic", "l0", "l1", {{0.1, 0.2, 0.3}, {0.3, 0.4, 0.5}}, {1.0, 1.0, 0.0});
-    urdf.joint("j2", "revolute", "l1", "l2", {{0.2, 0.0, 0.1}, {turn, 0.0, 0.0}}, {0.0, 0.6, -0.8});
+    urdf.joint("j2", "revolute", "l1", "l2", {{0.2, 0.0, 0.1}, {quarter_turn, 0.0, 0.0}}, {0.0, 0.6, -0.8});
     urdf.joint("j3", "prismatic", "l2", "l3", {{0.0, 0.3, 0.1}, {0.0, 0.7, 0.0}}, {0.3, -0.4, 1.2});
     urdf.joint("bracket", "fixed", "l3", "l4", {{0.1, 0.1, 0.0}, {0.2, 0.0, 1.0}});
-    urdf.joint("j4", "revolute", "l4", "l5", {{0.0, 0.1, 0.2}, {0.0, 0.0, turn}}, {1.0, 0.0, 0.0});
+    urdf.joint("j4", "revolute", "l4", "l5", {{0.0, 0.1, 0.2}, {0.0, 0.0, quarter_turn}}, {1.0, 0.0, 0.0});
     urdf.joint("j5", "prismatic", "l5", "l6", {{0.3, 0.0, 0.0}, {}}, {0.0, 0.0, -1.0});
     return urdf.text();
 }
@@ -155,7 +156,8 @@ TEST(UrdfDynamics, OfAFloatingJointAreThoseOfThreeSlidesAndThreeTurns) {
     const std::vector<rigid_link> links = bodies(3, 37);
     const auto with_arm = [&links](urdf_text urdf) {
         urdf.link("body", links[0]).link("upper", links[1]).link("lower", links[2]);
-        urdf.joint("shoulder", "revolute", "body", "upper", {{0.2, 0.1, 0.0}, {turn, 0.0, 0.0}}, {0.0, 1.0, 0.0});
+        urdf.joint("shoulder", "revolute", "body", "upper", {{0.2, 0.1, 0.0}, {quarter_turn, 0.0, 0.0}},
+                   {0.0, 1.0, 0.0});
         urdf.joint("elbow", "revolute", "upper", "lower", {{0.3, 0.0, 0.1}, {}}, {0.0, 1.0, 0.0});
         return urdf;
     };
@@ -187,7 +189,7 @@ TEST(UrdfDynamics, OfMimicJointsAreThoseOfTheOpenTreeByVirtualWork) {
         urdf.massless_link("l0").link("l1", links[0]).link("l2", links[1]).link("l3", links[2]).link("l4", links[3]);
         urdf.joint("j4", "revolute", "l3", "l4", {{0.1, 0.0, 0.2}, {0.0, 0.3, 0.0}}, {1.0, 0.0, 0.0});
         urdf.joint("j1", "revolute", "l0", "l1", {{0.0, 0.1, 0.2}, {0.2, 0.0, 0.0}});
-        urdf.joint("j2", "revolute", "l1", "l2", {{0.3, 0.0, 0.0}, {turn, 0.0, 0.0}}, {0.0, 1.0, 0.0}, rule);
+        urdf.joint("j2", "revolute", "l1", "l2", {{0.3, 0.0, 0.0}, {quarter_turn, 0.0, 0.0}}, {0.0, 1.0, 0.0}, rule);
         urdf.joint("j3", "prismatic", "l1", "l3", {{0.2, 0.1, 0.0}, {0.0, 0.4, 0.0}}, {0.0, 0.0, -1.0}, next_rule);
         return urdf.text();
     };
@@ -227,7 +229,7 @@ TEST(UrdfDynamics, OfAJointThatMovesNothingHaveNoForwardModelWithoutARotor) {
     urdf_text urdf("end");
     urdf.massless_link("l0").link("l1", bodies(1, 42).front()).massless_link("tip");
     urdf.joint("j1", "continuous", "l0", "l1")
-        .joint("j2", "continuous", "l1", "tip", {{0.3, 0.0, 0.0}, {turn, 0.0, 0.0}});
+        .joint("j2", "continuous", "l1", "tip", {{0.3, 0.0, 0.0}, {quarter_turn, 0.0, 0.0}});
     const rigid_robot robot(urdf.text());
     const kdl_tree oracle(urdf.text(), robot.joints());
     std::mt19937_64 random(43);

@@ -18,8 +18,6 @@ int total(const generator::operation_count& count) {
     return count.mul + count.add + count.div;
 }
 
-}  // namespace
-
 TEST_P(UrdfOperationCount, IsNotAboveThatOfTheTable) {
     const generator::robot_description robot = generator::read_robot(robot_file(GetParam()));
     const mdh_table table = mdh_table_of(robot);
@@ -42,5 +40,7 @@ INSTANTIATE_TEST_SUITE_P(Robots, UrdfOperationCount,
                          testing::Values("scara", "emps", "puma560", "rx90", "stanford", "tx40", "denso_vp6242g",
                                          "panda", "kuka_lwr"),
                          [](const testing::TestParamInfo<const char*>& robot) { return std::string(robot.param); });
+
+}  // namespace
 
 }  // namespace idim::test

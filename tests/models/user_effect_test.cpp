@@ -15,7 +15,7 @@ namespace idim::test {
 
 namespace {
 
-const char* const arm =
+const char* const user_arm =
     "name: arm\n"
     "constants: {L: 0.4}\n"
     "joints:\n"
@@ -25,7 +25,7 @@ const char* const arm =
     "effects:\n"
     "  - viscous_friction\n";
 
-double sign(double x) {
+double sign_without_zero(double x) {
     return x > 0.0 ? 1.0 : -1.0;
 }
 
@@ -45,7 +45,7 @@ class user_robot {
   private:
     std::string write(const std::string& effect, const std::string& description, const std::string& use) const {
         folder_.write(effect + ".yaml", description);
-        return folder_.write("arm.yaml", arm + std::string("  - ") + use + "\n");
+        return folder_.write("arm.yaml", user_arm + std::string("  - ") + use + "\n");
     }
 
     temporary_folder folder_;
@@ -95,7 +95,7 @@ TEST(UserEffect, StribeckFrictionWithItsShapeFixed) {
                            "linear: {Fs: {unit: N*m, min: 0}}\nshape: {vs: {unit: rad/s, range: [0.001, 1]}}\n",
                            "{effect: my_stribeck, joints: [j2], shape: {vs: 0.3}}");
     expect_effect(robot, "Fs2", [](const joint_state& s, double, const Eigen::VectorXd&) {
-        return Eigen::Vector3d(0.0, std::exp(-std::pow(s.qd[1] / 0.3, 2)) * sign(s.qd[1]), 0.0);
+        return Eigen::Vector3d(0.0, std::exp(-std::pow(s.qd[1] / 0.3, 2)) * sign_without_zero(s.qd[1]), 0.0);
     });
 }
 
@@ -108,7 +108,7 @@ TEST(UserEffect, CouplingFrictionOfOneJointByAnother) {
         return Eigen::Vector3d(0.0, 0.0, s.qd[1]);
     });
     expect_effect(robot, "Gc3_2", [](const joint_state& s, double, const Eigen::VectorXd&) {
-        return Eigen::Vector3d(0.0, 0.0, sign(s.qd[1]));
+        return Eigen::Vector3d(0.0, 0.0, sign_without_zero(s.qd[1]));
     });
 }
 
@@ -122,7 +122,7 @@ TEST(UserEffect, CouplingThatActsOnBothJointsEntersTheMassMatrixSymmetrically) {
         return Eigen::Vector3d(s.qdd[2], 0.0, s.qdd[0]);
     });
     expect_effect(robot, "Jc3_1", [](const joint_state& s, double, const Eigen::VectorXd&) {
-        return Eigen::Vector3d(sign(s.qd[0] + s.qd[2]), 0.0, sign(s.qd[0] + s.qd[2]));
+        return Eigen::Vector3d(sign_without_zero(s.qd[0] + s.qd[2]), 0.0, sign_without_zero(s.qd[0] + s.qd[2]));
     });
     const Eigen::VectorXd chi = Eigen::VectorXd::Unit(robot.model.n_base(), robot.column("Ja3_1"));
     Eigen::Matrix3d expected = Eigen::Matrix3d::Zero();
@@ -180,7 +180,7 @@ TEST(UserEffect, TorqueThatIsNotLinearInItsCoefficientsIsRefused) {
     for (const char* torque : {"Ga*Gb*qd", "Ga^2*qd + Gb", "sin(Ga)*qd + Gb", "Ga*qd + Gb + 1", "Ga*qdd^2 + Gb"}) {
         folder.write("bad.yaml", std::string("effect: bad\nper: joint\ntorque: ") + torque +
                                      "\nlinear: {Ga: {unit: N*m}, Gb: {unit: N*m}}\n");
-        const std::string robot = folder.write("arm.yaml", arm + std::string("  - bad\n"));
+        const std::string robot = folder.write("arm.yaml", user_arm + std::string("  - bad\n"));
         EXPECT_THROW(generator::find_base(robot, templates_folder), input_error) << torque;
     }
 }

@@ -111,11 +111,11 @@ TEST_F(UserLaw, GivesTheInstrumentsOfTheBuiltInOne) {
     const std::string log = (folder_.path() / "log.csv").string();
     ASSERT_EQ(simulate(robot("r.yaml", "law: pd_cascade" + values), "log.csv").status, 0);
     for (int k = 0; k < 2; ++k) {
-        const std::string json = (folder_.path() / "result.json").string();
-        const command_result answer =
-            run_idim({"identify", robot("r.yaml", "law: " + laws[k] + values), log, "--method", "iv", "--json", json});
+        const std::string result_file = (folder_.path() / "result.json").string();
+        const command_result answer = run_idim(
+            {"identify", robot("r.yaml", "law: " + laws[k] + values), log, "--method", "iv", "--json", result_file});
         ASSERT_EQ(answer.status, 0) << answer.err;
-        results[k] = nlohmann::json::parse(read_text(json))["parameters"];
+        results[k] = nlohmann::json::parse(read_text(result_file))["parameters"];
     }
     EXPECT_EQ(results[0], results[1]);
 }

@@ -3,13 +3,11 @@
 #include <regex>
 #include <stdexcept>
 
+#include "support/sign.hpp"
+
 namespace idim::test {
 
 namespace {
-
-double sign(double x) {
-    return static_cast<double>(x > 0.0) - static_cast<double>(x < 0.0);
-}
 
 double at_one_joint(const std::string& kind, const joint_state& state, Eigen::Index j) {
     if (kind == "Ia") {

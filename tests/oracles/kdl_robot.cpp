@@ -15,7 +15,7 @@ KDL::Joint joint_of(const mdh_row& row, const KDL::Frame& at_zero, std::size_t n
 }
 
 /// Frame of a link in that of its antecedent at q = 0.
-KDL::Frame frame_of(const mdh_row& row) {
+KDL::Frame link_frame(const mdh_row& row) {
     const KDL::Frame before(KDL::Rotation::RotZ(row.gamma), KDL::Vector(0.0, 0.0, row.b));
     return before * KDL::Frame::DH_Craig1989(row.d, row.alpha, row.r, row.theta);
 }
@@ -59,7 +59,7 @@ rigid_link unit_link(int index) {
 kdl_robot::kdl_robot(const mdh_table& table, const std::vector<rigid_link>& links)
     : gravity_(table.gravity[0], table.gravity[1], table.gravity[2]) {
     for (std::size_t j = 0; j < table.rows.size(); ++j) {
-        const KDL::Frame at_zero = frame_of(table.rows[j]);
+        const KDL::Frame at_zero = link_frame(table.rows[j]);
         chain_.addSegment(KDL::Segment(joint_of(table.rows[j], at_zero, j + 1), at_zero, inertia_of(links.at(j))));
     }
 }

@@ -9,35 +9,35 @@ namespace idim::test {
 
 namespace {
 
-KDL::Vector to_kdl(const urdf::Vector3& v) {
+KDL::Vector urdf_to_kdl(const urdf::Vector3& v) {
     return {v.x, v.y, v.z};
 }
 
-KDL::Frame to_kdl(const urdf::Pose& pose) {
-    const urdf::Rotation& r = pose.rotation;
-    return {KDL::Rotation::Quaternion(r.x, r.y, r.z, r.w), to_kdl(pose.position)};
+KDL::Frame urdf_to_kdl(const urdf::Pose& given) {
+    const urdf::Rotation& r = given.rotation;
+    return {KDL::Rotation::Quaternion(r.x, r.y, r.z, r.w), urdf_to_kdl(given.position)};
 }
 
-KDL::RigidBodyInertia inertia_of(const urdf::Link& link) {
+KDL::RigidBodyInertia inertia_of_urdf(const urdf::Link& link) {
     if (!link.inertial) {
         return KDL::RigidBodyInertia::Zero();
     }
     const urdf::Inertial& given = *link.inertial;
-    const KDL::Frame origin = to_kdl(given.origin);
+    const KDL::Frame origin = urdf_to_kdl(given.origin);
     const KDL::RigidBodyInertia central(
         given.mass, KDL::Vector::Zero(),
         KDL::RotationalInertia(given.ixx, given.iyy, given.izz, given.ixy, given.ixz, given.iyz));
     return origin * central;
 }
 
-KDL::Joint joint_of(const urdf::Joint& joint) {
-    const KDL::Frame origin = to_kdl(joint.parent_to_joint_origin_transform);
+KDL::Joint joint_of_urdf(const urdf::Joint& joint) {
+    const KDL::Frame origin = urdf_to_kdl(joint.parent_to_joint_origin_transform);
     switch (joint.type) {
         case urdf::Joint::REVOLUTE:
         case urdf::Joint::CONTINUOUS:
-            return KDL::Joint(joint.name, origin.p, origin.M * to_kdl(joint.axis), KDL::Joint::RotAxis);
+            return KDL::Joint(joint.name, origin.p, origin.M * urdf_to_kdl(joint.axis), KDL::Joint::RotAxis);
         case urdf::Joint::PRISMATIC:
-            return KDL::Joint(joint.name, origin.p, origin.M * to_kdl(joint.axis), KDL::Joint::TransAxis);
+            return KDL::Joint(joint.name, origin.p, origin.M * urdf_to_kdl(joint.axis), KDL::Joint::TransAxis);
         case urdf::Joint::FIXED:
             return KDL::Joint(joint.name, KDL::Joint::None);
         default:
@@ -48,8 +48,8 @@ KDL::Joint joint_of(const urdf::Joint& joint) {
 void add_below(const urdf::Link& link, KDL::Tree& tree) {
     for (const urdf::LinkSharedPtr& child : link.child_links) {
         const urdf::Joint& joint = *child->parent_joint;
-        const KDL::Segment segment(child->name, joint_of(joint), to_kdl(joint.parent_to_joint_origin_transform),
-                                   inertia_of(*child));
+        const KDL::Segment segment(child->name, joint_of_urdf(joint),
+                                   urdf_to_kdl(joint.parent_to_joint_origin_transform), inertia_of_urdf(*child));
         if (!tree.addSegment(segment, link.name)) {
             throw std::runtime_error("KDL does not take segment " + child->name);
         }

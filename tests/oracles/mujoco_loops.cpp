@@ -53,8 +53,8 @@ std::string body(const std::vector<tree_row>& rows, const std::vector<rigid_link
     return text + "</body>\n";
 }
 
-mjModel* load(const std::array<double, 3>& gravity, const std::vector<tree_row>& rows,
-              const std::vector<rigid_link>& links) {
+mjModel* load_tree(const std::array<double, 3>& gravity, const std::vector<tree_row>& rows,
+                   const std::vector<rigid_link>& links) {
     std::string text = "<mujoco><compiler angle=\"radian\"/><option gravity=\"" +
                        numbers({gravity[0], gravity[1], gravity[2]}) +
                        "\"><flag constraint=\"disable\" passive=\"disable\"/></option><worldbody>\n";
@@ -79,7 +79,7 @@ int body_of(int link, const mjModel* model) {
 
 mujoco_loops::mujoco_loops(const std::array<double, 3>& gravity, const std::vector<tree_row>& rows,
                            const std::vector<rigid_link>& links, const std::vector<held_points>& loops)
-    : model_(load(gravity, rows, links), mj_deleteModel),
+    : model_(load_tree(gravity, rows, links), mj_deleteModel),
       data_(mj_makeData(model_.get()), mj_deleteData),
       loops_(loops) {
     for (std::size_t j = 0; j < rows.size(); ++j) {
@@ -101,10 +101,10 @@ void mujoco_loops::place(const Eigen::VectorXd& all) const {
 }
 
 Eigen::Vector3d mujoco_loops::point(const held_points& loop, std::size_t side) const {
-    using row_major = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+    using row_major_rotation = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
     const int body = body_of(loop.links[side], model_.get());
     return Eigen::Map<const Eigen::Vector3d>(data_->xpos + 3 * body) +
-           Eigen::Map<const row_major>(data_->xmat + 9 * body) * loop.points[side];
+           Eigen::Map<const row_major_rotation>(data_->xmat + 9 * body) * loop.points[side];
 }
 
 Eigen::VectorXd mujoco_loops::gaps() const {
@@ -116,10 +116,11 @@ Eigen::VectorXd mujoco_loops::gaps() const {
 }
 
 Eigen::MatrixXd mujoco_loops::jacobian() const {
-    using row_major = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>;
+    using row_major_jacobian = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>;
     Eigen::MatrixXd result(3 * static_cast<Eigen::Index>(loops_.size()), model_->nv);
     for (std::size_t i = 0; i < loops_.size(); ++i) {
-        std::array<row_major, 2> of_side = {row_major(3, model_->nv), row_major(3, model_->nv)};
+        std::array<row_major_jacobian, 2> of_side = {row_major_jacobian(3, model_->nv),
+                                                     row_major_jacobian(3, model_->nv)};
         for (std::size_t side = 0; side < 2; ++side) {
             const Eigen::Vector3d at = point(loops_[i], side);
             mj_jac(model_.get(), data_.get(), of_side[side].data(), nullptr, at.data(),

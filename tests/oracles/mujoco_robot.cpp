@@ -11,7 +11,7 @@ namespace {
 
 /// A file of its own, because MuJoCo reads no text; its extension inside the URDF keeps inertias and fixed links as
 /// they are.
-mjModel* load(std::string urdf) {
+mjModel* load_urdf(std::string urdf) {
     const std::string settings =
         "<mujoco><compiler balanceinertia=\"false\" fusestatic=\"false\" discardvisual=\"true\"/></mujoco>\n";
     urdf.insert(urdf.rfind("</robot>"), settings);
@@ -28,7 +28,7 @@ mjModel* load(std::string urdf) {
 }  // namespace
 
 mujoco_robot::mujoco_robot(const std::string& urdf, const std::vector<std::string>& joints)
-    : model_(load(urdf), mj_deleteModel), data_(mj_makeData(model_.get()), mj_deleteData) {
+    : model_(load_urdf(urdf), mj_deleteModel), data_(mj_makeData(model_.get()), mj_deleteData) {
     model_->opt.disableflags |= mjDSBL_CONSTRAINT | mjDSBL_PASSIVE;
     for (const std::string& joint : joints) {
         const int id = mj_name2id(model_.get(), mjOBJ_JOINT, joint.c_str());

@@ -5,13 +5,11 @@
 #include <numbers>
 #include <random>
 
+#include "support/sign.hpp"
+
 namespace idim::test {
 
 namespace {
-
-double sign(double x) {
-    return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : 0.0);
-}
 
 /// qdd of [IV 53] solved for the accelerations.
 Eigen::Vector2d acceleration(const Eigen::VectorXd& chi, const Eigen::Vector2d& q, const Eigen::Vector2d& qd,

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 const std::string hash = "0123456789abcdef";
 
-std::string read(const fs::path& file) {
+std::string content_of(const fs::path& file) {
     std::ifstream stream(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
 }
@@ -50,7 +50,7 @@ extern "C" const idim_model_interface* idim_model(void) {
 )";
     const std::string header = "#define MODEL_ABI IDIM_MODEL_ABI\n#define ROBOT \"" + robot +
                                "\"\n#define INPUT_HASH \"" + input_hash + "\"\n";
-    const std::string interface = read(IDIM_SOURCE_DIR "/runtime/include/idim/model_interface.h");
+    const std::string interface = content_of(IDIM_SOURCE_DIR "/runtime/include/idim/model_interface.h");
     return {{"model.cpp", body}, {"robot.hpp", header}, {"idim/model_interface.h", interface}};
 }
 
@@ -97,7 +97,7 @@ class CompiledModel : public testing::Test {
     }
 
     fs::path count_file() const { return folder_.path() / "count"; }
-    size_t compilations() const { return read(count_file()).size() / 2; }
+    size_t compilations() const { return content_of(count_file()).size() / 2; }
 
     std::vector<fs::path> entries() const {
         std::vector<fs::path> found;
@@ -152,7 +152,7 @@ TEST_F(CompiledModel, SecondCallTakesTheEntryAndDoesNotCompile) {
     EXPECT_EQ(robot(), "one");
     EXPECT_EQ(robot(), "one");
     EXPECT_EQ(compilations(), 1u);
-    EXPECT_EQ(read(entry() / "idim/model_interface.h"), sources_[2].text);
+    EXPECT_EQ(content_of(entry() / "idim/model_interface.h"), sources_[2].text);
 }
 
 TEST_F(CompiledModel, CacheIsForThisUserAloneWhateverTheUmask) {
@@ -178,7 +178,7 @@ TEST_F(CompiledModel, LibraryOfAnotherModelIsRebuilt) {
     expect_rebuilt_after([&] {
         options_.cache.swap(elsewhere.cache);
         compile_model(model_named("two"), hash, options_);
-        const std::string other = read(entry() / "model.so");
+        const std::string other = content_of(entry() / "model.so");
         options_.cache.swap(elsewhere.cache);
         fs::remove(count_file());
         write(count_file(), "x\n");

@@ -18,8 +18,8 @@ namespace {
 
 constexpr int bodies = 6;
 constexpr int frictions = 24;
-constexpr int parameters = 10 * bodies + frictions;
-constexpr int rows = 52;
+constexpr int parameter_count = 10 * bodies + frictions;
+constexpr int equations = 52;
 
 Eigen::MatrixXd normal(Eigen::Index height, Eigen::Index width, std::mt19937_64& random) {
     std::normal_distribution<double> distribution;
@@ -35,10 +35,10 @@ Eigen::MatrixXd normal(Eigen::Index height, Eigen::Index width, std::mt19937_64&
 struct random_problem {
     explicit random_problem(double noise, std::uint64_t seed = 1) {
         std::mt19937_64 random(seed);
-        R = normal(rows, parameters, random);
-        program.A = 30.0 * normal(rows, rows, random) * R;
-        truth.resize(parameters);
-        start = Eigen::VectorXd::Zero(parameters);
+        R = normal(equations, parameter_count, random);
+        program.A = 30.0 * normal(equations, equations, random) * R;
+        truth.resize(parameter_count);
+        start = Eigen::VectorXd::Zero(parameter_count);
         for (int i = 0; i < bodies; ++i) {
             const Eigen::Matrix4d L = normal(4, 4, random);
             truth.segment<10>(10 * i) = parameters_of_pseudo_inertia(0.3 * L * L.transpose());
@@ -53,12 +53,12 @@ struct random_problem {
             start.segment<10>(10 * i) = parameters_of_pseudo_inertia(body.reference);
             program.matrices.push_back(body);
         }
-        for (int k = 10 * bodies; k < parameters; ++k) {
+        for (int k = 10 * bodies; k < parameter_count; ++k) {
             truth[k] = std::abs(normal(1, 1, random)(0, 0));
             start[k] = 1.0;
             program.bounds.push_back({"coefficient", {{k, 1.0}}, 0.0, 1.0});
         }
-        program.b = program.A * truth + noise * normal(rows, 1, random);
+        program.b = program.A * truth + noise * normal(equations, 1, random);
         program.constant = 1000.0;
     }
 
@@ -67,7 +67,7 @@ struct random_problem {
     }
     /// A feasible point, of sizes from a tenth to ten times the usual.
     Eigen::VectorXd feasible(std::mt19937_64& random) const {
-        Eigen::VectorXd x(parameters);
+        Eigen::VectorXd x(parameter_count);
         for (int i = 0; i < bodies; ++i) {
             const Eigen::Matrix4d L = std::pow(10.0, normal(1, 1, random)(0, 0)) * normal(4, 4, random);
             x.segment<10>(10 * i) =
@@ -187,12 +187,12 @@ TEST(ConeProgram, NoFeasiblePointIsBetterThanTheProofAllows) {
 class log_cholesky_fit {
   public:
     log_cholesky_fit(const random_problem& problem, std::mt19937_64& random)
-        : problem_(problem), u_(normal(parameters, 1, random)) {}
+        : problem_(problem), u_(normal(parameter_count, 1, random)) {}
 
     /// x(u) and dx/du [parameters x parameters].
     Eigen::VectorXd point(Eigen::MatrixXd& slope) const {
-        Eigen::VectorXd x(parameters);
-        slope.setZero(parameters, parameters);
+        Eigen::VectorXd x(parameter_count);
+        slope.setZero(parameter_count, parameter_count);
         for (int i = 0; i < bodies; ++i) {
             Eigen::Matrix4d U = Eigen::Matrix4d::Zero();
             int k = 10 * i;
@@ -213,7 +213,7 @@ class log_cholesky_fit {
                 }
             }
         }
-        for (int k = 10 * bodies; k < parameters; ++k) {
+        for (int k = 10 * bodies; k < parameter_count; ++k) {
             x[k] = std::exp(u_[k]);
             slope(k, k) = x[k];
         }
@@ -225,10 +225,11 @@ class log_cholesky_fit {
         Eigen::VectorXd x = point(slope);
         double damping = 1e-3;
         for (int step = 0; step < 500 && damping < 1e12; ++step) {
-            Eigen::MatrixXd J(rows + parameters, parameters);
-            J << problem_.program.A * slope, Eigen::MatrixXd::Identity(parameters, parameters) * std::sqrt(damping);
-            Eigen::VectorXd r = Eigen::VectorXd::Zero(rows + parameters);
-            r.head(rows) = problem_.program.b - problem_.program.A * x;
+            Eigen::MatrixXd J(equations + parameter_count, parameter_count);
+            J << problem_.program.A * slope,
+                Eigen::MatrixXd::Identity(parameter_count, parameter_count) * std::sqrt(damping);
+            Eigen::VectorXd r = Eigen::VectorXd::Zero(equations + parameter_count);
+            r.head(equations) = problem_.program.b - problem_.program.A * x;
             const Eigen::VectorXd before = u_;
             u_ += J.householderQr().solve(r);
             Eigen::MatrixXd next_slope;
@@ -302,7 +303,7 @@ TEST(ConeProgram, SensitivityIsTheDerivativeOfTheSolution) {
     random_problem problem(strong_noise);
     const cone_solution found = solve(problem.program, problem.start, 1e-10);
     std::mt19937_64 random(4);
-    const Eigen::VectorXd direction = normal(rows, 1, random);
+    const Eigen::VectorXd direction = normal(equations, 1, random);
     constexpr double step = 1e-2;
     problem.program.b += step * direction;
     const Eigen::VectorXd ahead = problem.R * solve(problem.program, problem.start, 1e-10).x;
@@ -317,7 +318,7 @@ TEST(ConeProgram, SensitivityIsTheDerivativeOfTheSolution) {
 TEST(ConeProgram, RefusesAStartOutside) {
     random_problem problem(0.0);
     Eigen::VectorXd start = problem.start;
-    start[parameters - 1] = -1.0;
+    start[parameter_count - 1] = -1.0;
     EXPECT_THROW(solve(problem.program, start, 1e-8), std::invalid_argument);
     start = problem.start;
     start[9] = -1.0;

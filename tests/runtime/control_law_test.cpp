@@ -5,12 +5,11 @@
 #include "idim/p_position.hpp"
 #include "idim/pd_cascade.hpp"
 #include "idim/pid.hpp"
+#include "support/one_joint.hpp"
 
 namespace {
 
-Eigen::VectorXd one(double value) {
-    return Eigen::VectorXd::Constant(1, value);
-}
+using idim::test::one;
 
 idim::control_sample sample(double qr, double q, double qd = 0.0, double qdr = 0.0) {
     return {0.0, one(qr), one(qdr), one(0.0), one(q), one(qd)};

@@ -7,15 +7,13 @@
 #include <random>
 
 #include "support/noise.hpp"
+#include "support/traced_rows.hpp"
 #include "tracing/effect_tracer.hpp"
 #include "tracing/shape_search.hpp"
 
 namespace idim::test {
 
 namespace {
-
-constexpr Eigen::Index rows_in_log = 600;
-constexpr double row_rate = 20.0;  // Hz
 
 /// A sine of the rows' time, of the frequency that is its shape [Hz], or of a known one.
 class sine_candidate final : public effect_candidate {
@@ -40,7 +38,7 @@ class sine_candidate final : public effect_candidate {
 };
 
 /// One joint whose model is a slow sine, a slow cosine and a constant; rows without reversals.
-traced_log log_of(const Eigen::VectorXd& added, bool held_back) {
+traced_log one_joint_log(const Eigen::VectorXd& added, bool held_back) {
     traced_log log;
     log.held_back = held_back;
     log.rows.file = "rows";
@@ -58,18 +56,13 @@ traced_log log_of(const Eigen::VectorXd& added, bool held_back) {
     return log;
 }
 
-Eigen::VectorXd sine(double frequency, double phase = 0.0) {
-    const Eigen::ArrayXd t = Eigen::ArrayXd::LinSpaced(rows_in_log, 0.0, (rows_in_log - 1) / row_rate);
-    return (2.0 * M_PI * frequency * t + phase).sin().matrix();
-}
-
 effect_term term_at(double frequency, double phase = 0.0) {
     return {std::make_shared<sine_candidate>(phase), Eigen::VectorXd::Constant(1, frequency)};
 }
 
 TEST(EffectEvidence, GainOfAProjectedColumnIsWhatItRemovesFromTheLoss) {
     std::mt19937_64 random(1);
-    const std::vector<traced_log> logs = {log_of(ar1_noise(rows_in_log, 0.5, random) + 0.3 * sine(1.1), false)};
+    const std::vector<traced_log> logs = {one_joint_log(ar1_noise(rows_in_log, 0.5, random) + 0.3 * sine(1.1), false)};
     const trace_fit fit = fit_with_own_noise(logs, {});
     const effect_term term = term_at(1.1);
     Eigen::MatrixXd A(rows_in_log, 4);
@@ -91,7 +84,7 @@ TEST(EffectEvidence, PartialFOnEffectiveRowsAlarmsAsOftenAsItSaysUnderCorrelated
     int alarms = 0;
     int naive_alarms = 0;
     for (int i = 0; i < draws; ++i) {
-        const std::vector<traced_log> logs = {log_of(ar1_noise(rows_in_log, 0.8, random), false)};
+        const std::vector<traced_log> logs = {one_joint_log(ar1_noise(rows_in_log, 0.8, random), false)};
         const trace_fit fit = fit_with_own_noise(logs, {});
         const auto candidate = std::make_shared<sine_candidate>(phase(random), 0.31);
         alarms += test_on_fitted(fit, {candidate, {}}, false).p_value < 0.05 ? 1 : 0;
@@ -107,7 +100,7 @@ TEST(EffectEvidence, PartialFOnEffectiveRowsAlarmsAsOftenAsItSaysUnderCorrelated
 
 TEST(EffectEvidence, ShapeSearchFindsTheFrequencyOfAWeakSine) {
     std::mt19937_64 random(3);
-    const std::vector<traced_log> logs = {log_of(ar1_noise(rows_in_log, 0.3, random) + 0.5 * sine(3.37), false)};
+    const std::vector<traced_log> logs = {one_joint_log(ar1_noise(rows_in_log, 0.3, random) + 0.5 * sine(3.37), false)};
     const trace_fit fit = fit_with_own_noise(logs, {});
     const effect_evidence found = search_shape(fit, std::make_shared<sine_candidate>(), 0.2);
     // The bound of Cramer and Rao for a sine of known phase: sqrt(6 / (2 n)) / (pi T A) = 0.0015 Hz here; four of
@@ -120,7 +113,8 @@ TEST(EffectEvidence, OnlyLookAlikesAreConfusable) {
     std::mt19937_64 random(4);
     std::vector<traced_log> logs;
     for (const bool held_back : {false, true}) {
-        logs.push_back(log_of(ar1_noise(rows_in_log, 0.3, random) + 0.6 * sine(2.0) + 0.6 * sine(4.0), held_back));
+        logs.push_back(
+            one_joint_log(ar1_noise(rows_in_log, 0.3, random) + 0.6 * sine(2.0) + 0.6 * sine(4.0), held_back));
     }
     const trace_fit fit = fit_with_own_noise(logs, {});
     effect_survey all;

@@ -51,7 +51,7 @@ observation noisy(const observation& clean, unsigned seed) {
     return rows;
 }
 
-bool holds(const std::vector<int>& list, int column) {
+bool holds_column(const std::vector<int>& list, int column) {
     return std::find(list.begin(), list.end(), column) != list.end();
 }
 
@@ -82,10 +82,10 @@ TEST(EssentialParameters, DropsWhatIsNotThereAndKeepsWhatIsCertain) {
         const observation rows = noisy(clean, seed);
         const estimate full = least_squares(rows, least_squares_method::wls);
         const essential_parameters found = find_essential(rows, full);
-        kept_surplus += std::any_of(surplus.begin(), surplus.end(), [&](int c) { return holds(found.kept, c); });
+        kept_surplus += std::any_of(surplus.begin(), surplus.end(), [&](int c) { return holds_column(found.kept, c); });
         for (int c = 0; c < 8; ++c) {
             if (full.deviations()[c] < 0.05 * truth()[c]) {
-                EXPECT_TRUE(holds(found.kept, c)) << "seed " << seed << ", column " << c;
+                EXPECT_TRUE(holds_column(found.kept, c)) << "seed " << seed << ", column " << c;
             }
         }
         // The squared residual of joint 1, the larger one, grows by k F (length) / rows at most, 5 * 2.2 * 9 / 800 = 12

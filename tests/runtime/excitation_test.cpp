@@ -93,23 +93,23 @@ void regressor(const double* q, const double* qd, const double* qdd, double, con
         0.0, std::cos(q[0] + q[1]), qdd[1] + qd[0] * qd[0] * std::sin(q[1]), 0.5 * qd[1], std::sin(q[1]);
 }
 
-void inverse_dynamics(const double* q, const double* qd, const double* qdd, double t, const double* temp,
-                      const double* chi, double* tau) {
+void arm_inverse_dynamics(const double* q, const double* qd, const double* qdd, double t, const double* temp,
+                          const double* chi, double* tau) {
     Eigen::Matrix<double, 2, 5, Eigen::RowMajor> W;
     regressor(q, qd, qdd, t, temp, W.data());
     Eigen::Map<Eigen::Vector2d>(tau, 2) = W * Eigen::Map<const Eigen::Vector<double, 5>>(chi);
 }
 
-const char* const joint_names[] = {"j1", "j2"};
+const char* const arm_joint_names[] = {"j1", "j2"};
 
 idim_model_interface arm() {
     idim_model_interface model{};
     model.robot = "arm";
     model.dof = 2;
     model.n_base = 5;
-    model.joint_names = joint_names;
+    model.joint_names = arm_joint_names;
     model.regressor = regressor;
-    model.inverse_dynamics = inverse_dynamics;
+    model.inverse_dynamics = arm_inverse_dynamics;
     return model;
 }
 
@@ -217,7 +217,7 @@ TEST(ExcitationSearch, KeepsEveryLimitAndGivesTheSameAgain) {
         const Eigen::Vector2d qd = reference.qd.row(k);
         const Eigen::Vector2d qdd = reference.qdd.row(k);
         Eigen::Vector2d tau;
-        inverse_dynamics(q.data(), qd.data(), qdd.data(), 0.0, nullptr, robot.chi.data(), tau.data());
+        arm_inverse_dynamics(q.data(), qd.data(), qdd.data(), 0.0, nullptr, robot.chi.data(), tau.data());
         const double x = std::cos(q[0]) + 0.5 * std::cos(q[0] + q[1]);
         const double y = std::sin(q[0]) + 0.5 * std::sin(q[0] + q[1]);
         ASSERT_TRUE((q.array() >= robot.limits.lower.array()).all() && (q.array() <= robot.limits.upper.array()).all());
@@ -264,7 +264,7 @@ TEST(ExcitationQuality, TellsWhatCorrelatedColumnsCost) {
     idim_model_interface model{};
     model.dof = 1;
     model.n_base = 2;
-    model.joint_names = joint_names;
+    model.joint_names = arm_joint_names;
     model.regressor = [](const double* q, const double* qd, const double*, double, const double*, double* W) {
         W[0] = q[0];
         W[1] = 3.0 * q[0] + 4.0 * qd[0];

@@ -154,7 +154,7 @@ TEST(FilterChoice, BandIsFourFifthsOfTheNewNyquistFrequency) {
     EXPECT_DOUBLE_EQ((filter_choice{20.0, 4, 20, ""}.band(200.0)), 4.0);     // [IV 4.2]
 }
 
-std::string error(const std::vector<log>& logs, const filter_request& request) {
+std::string error_of_choosing(const std::vector<log>& logs, const filter_request& request) {
     try {
         choose_filter(logs, request);
     } catch (const input_error& caught) {
@@ -165,28 +165,31 @@ std::string error(const std::vector<log>& logs, const filter_request& request) {
 
 TEST(FilterChoice, WrongRequestsAreInputErrors) {
     const std::vector<log> logs = {sinusoids(1e-4)};
-    EXPECT_EQ(error(logs, {100.0, {}, {}}),
+    EXPECT_EQ(error_of_choosing(logs, {100.0, {}, {}}),
               "cutoff: 100 Hz is neither 0 (no filter) nor between 0 and half the sampling rate, 100 Hz");
-    EXPECT_EQ(error(logs, {-1.0, {}, {}}),
+    EXPECT_EQ(error_of_choosing(logs, {-1.0, {}, {}}),
               "cutoff: -1 Hz is neither 0 (no filter) nor between 0 and half the sampling rate, 100 Hz");
-    EXPECT_EQ(error(logs, {{}, 13, {}}), "order: 13 is not in 1..12");
-    EXPECT_EQ(error(logs, {{}, {}, 0}), "decimation: 0 is not a positive number");
-    EXPECT_EQ(error(logs, {{}, {}, {}, 1.0}), "minimum_speed: 1 is not a part of the top speed from 0 to below 1");
-    EXPECT_EQ(error(logs, {{}, {}, {}, -0.1}), "minimum_speed: -0.1 is not a part of the top speed from 0 to below 1");
-    EXPECT_EQ(error({}, {}), "no log was given");
+    EXPECT_EQ(error_of_choosing(logs, {{}, 13, {}}), "order: 13 is not in 1..12");
+    EXPECT_EQ(error_of_choosing(logs, {{}, {}, 0}), "decimation: 0 is not a positive number");
+    EXPECT_EQ(error_of_choosing(logs, {{}, {}, {}, 1.0}),
+              "minimum_speed: 1 is not a part of the top speed from 0 to below 1");
+    EXPECT_EQ(error_of_choosing(logs, {{}, {}, {}, -0.1}),
+              "minimum_speed: -0.1 is not a part of the top speed from 0 to below 1");
+    EXPECT_EQ(error_of_choosing({}, {}), "no log was given");
 }
 
 TEST(FilterChoice, LogsThatCannotDecideAreInputErrors) {
-    EXPECT_EQ(error({sinusoids(1e-4, 50)}, {}),
+    EXPECT_EQ(error_of_choosing({sinusoids(1e-4, 50)}, {}),
               "sinusoids.csv: 50 samples, choosing the filter from the data needs at least 64; give "
               "the cut-off and the decimation");
     log rest = sinusoids(1e-4);
     rest.q.setConstant(1.0);
-    EXPECT_EQ(error({rest}, {}), "sinusoids.csv: q1: no joint moves, nothing can be identified from this log");
+    EXPECT_EQ(error_of_choosing({rest}, {}),
+              "sinusoids.csv: q1: no joint moves, nothing can be identified from this log");
     log faster = sinusoids(1e-4);
     faster.file = "faster.csv";
     faster.t *= 0.5;
-    EXPECT_EQ(error({sinusoids(1e-4), faster}, {}),
+    EXPECT_EQ(error_of_choosing({sinusoids(1e-4), faster}, {}),
               "faster.csv: t: sampled at 400 Hz, but sinusoids.csv at 200 Hz; logs used together need one rate");
 }
 

@@ -92,7 +92,7 @@ TEST(FilteredSamples, JitteredTimeStampsAreResampledFirst) {
     EXPECT_LT((samples.tau - samples.q).cwiseAbs().maxCoeff(), 1e-6) << "torque and position on one grid";
 }
 
-std::string error(const log& data, const filter_choice& choice) {
+std::string error_of_filtering(const log& data, const filter_choice& choice) {
     try {
         filter_log(data, choice);
     } catch (const input_error& caught) {
@@ -104,19 +104,20 @@ std::string error(const log& data, const filter_choice& choice) {
 TEST(FilteredSamples, ShortLogIsAnInputErrorThatNamesBothLengths) {
     log data = uniform_log(101, 1000.0);
     data.q = data.t;
-    EXPECT_EQ(error(data, published),
+    EXPECT_EQ(error_of_filtering(data, published),
               "a.csv: 101 samples (0.1 s) are too few, the filter of order 4 at 100 Hz needs at least 102 (0.101 s)");
     data = uniform_log(102, 1000.0);
     data.q = data.t;
-    EXPECT_EQ(error(data, published), "no error");
+    EXPECT_EQ(error_of_filtering(data, published), "no error");
     data = uniform_log(1, 1.0);
-    EXPECT_EQ(error(data, published), "a.csv: t: 1 samples, at least 2 are needed");
+    EXPECT_EQ(error_of_filtering(data, published), "a.csv: t: 1 samples, at least 2 are needed");
 }
 
 TEST(FilteredSamples, CutoffAboveTheNyquistFrequencyIsAnInputError) {
     log data = uniform_log(1000, 200.0);
     data.q = data.t;
-    EXPECT_EQ(error(data, published), "a.csv: cutoff: 100 Hz is not between 0 and half the sampling rate, 100 Hz");
+    EXPECT_EQ(error_of_filtering(data, published),
+              "a.csv: cutoff: 100 Hz is not between 0 and half the sampling rate, 100 Hz");
 }
 
 }  // namespace

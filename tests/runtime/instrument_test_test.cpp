@@ -15,7 +15,7 @@ struct noisy_rows {
     observation measured, clean;
 };
 
-noisy_rows draw(double shared, std::mt19937_64& random) {
+noisy_rows draw_rows(double shared, std::mt19937_64& random) {
     noisy_rows rows{test::scara_rows(), test::scara_rows()};
     for (observation_block& block : rows.measured.blocks) {
         for (int j = 0; j < 2; ++j) {
@@ -40,7 +40,7 @@ double rejected(double shared) {
     std::mt19937_64 random(12);
     double part = 0.0;
     for (int run = 0; run < runs; ++run) {
-        const noisy_rows rows = draw(shared, random);
+        const noisy_rows rows = draw_rows(shared, random);
         const estimate fit = least_squares(rows.measured, least_squares_method::wls);
         part += durbin_wu_hausman(rows.measured, rows.clean, fit, fit).p_value < 0.05 ? 1.0 / runs : 0.0;
     }
@@ -58,7 +58,7 @@ TEST(DurbinWuHausman, SeesARegressorThatSharesItsNoiseWithTheTorque) {
 
 TEST(DurbinWuHausman, GivesTheBiasInPercentAndDeviations) {
     std::mt19937_64 random(1);
-    const noisy_rows rows = draw(0.0, random);
+    const noisy_rows rows = draw_rows(0.0, random);
     const estimate iv = least_squares(rows.measured, least_squares_method::wls);
     estimate ls = iv;
     ls.chi[0] = 0.9 * iv.chi[0];

@@ -34,7 +34,7 @@ observation stack(const std::vector<Eigen::MatrixXd>& W, const std::vector<Eigen
     return rows;
 }
 
-observation one_joint(const Eigen::MatrixXd& W, const Eigen::VectorXd& Y) {
+observation one_joint_rows(const Eigen::MatrixXd& W, const Eigen::VectorXd& Y) {
     return stack({W}, {Y});
 }
 
@@ -118,7 +118,7 @@ TEST(LeastSquares, ReproducesTheCertifiedLongleyRegression) {
     const Eigen::MatrixXd data = longley();
     Eigen::MatrixXd W(16, 7);
     W << Eigen::VectorXd::Ones(16), data.rightCols(6);
-    const estimate fit = least_squares(one_joint(W, data.col(0)), ols);
+    const estimate fit = least_squares(one_joint_rows(W, data.col(0)), ols);
     Eigen::VectorXd chi(7);
     chi << -3482258.63459582, 15.0618722713733, -0.358191792925910e-01, -2.02022980381683, -1.03322686717359,
         -0.511041056535807e-01, 1829.15146461355;
@@ -144,7 +144,7 @@ TEST(LeastSquares, ReproducesTheCertifiedWamplerPolynomialWithoutResidual) {
         }
     }
     for (const least_squares_method method : {ols, wls, irls}) {
-        const estimate fit = least_squares(one_joint(W, W.rowwise().sum()), method);
+        const estimate fit = least_squares(one_joint_rows(W, W.rowwise().sum()), method);
         expect_finite(fit);
         EXPECT_LT((fit.chi.array() - 1.0).abs().maxCoeff(), 1e-8);  // unscaled condition 6e6
         EXPECT_LT(fit.residual.relative_error, 1e-14);
@@ -153,7 +153,8 @@ TEST(LeastSquares, ReproducesTheCertifiedWamplerPolynomialWithoutResidual) {
 }
 
 TEST(LeastSquares, OfAConstantIsTheMeanWithItsClassicDeviation) {
-    const estimate fit = least_squares(one_joint(Eigen::VectorXd::Ones(4), Eigen::Vector4d(1.0, 2.0, 3.0, 6.0)), ols);
+    const estimate fit =
+        least_squares(one_joint_rows(Eigen::VectorXd::Ones(4), Eigen::Vector4d(1.0, 2.0, 3.0, 6.0)), ols);
     EXPECT_DOUBLE_EQ(fit.chi[0], 3.0);
     EXPECT_NEAR(fit.std_white[0], std::sqrt(14.0 / 3.0 / 4.0), 1e-14);
     EXPECT_NEAR(fit.residual.joints[0].rms, std::sqrt(14.0 / 4.0), 1e-14);
@@ -304,7 +305,7 @@ TEST(LeastSquares, ReweightedLeavesExactRowsAloneWhenAFewAreWrong) {
     Eigen::VectorXd Y = Eigen::VectorXd::Constant(20, 2.0);
     Y[3] = 50.0;
     Y[11] = -7.0;
-    const estimate fit = least_squares(one_joint(Eigen::VectorXd::Ones(20), Y), irls);
+    const estimate fit = least_squares(one_joint_rows(Eigen::VectorXd::Ones(20), Y), irls);
     expect_finite(fit);
     EXPECT_NEAR(fit.chi[0], 2.0, 1e-3);
 }
@@ -348,20 +349,20 @@ TEST(LeastSquares, JudgesRankByScaledColumnsWhateverTheirUnits) {
 }
 
 TEST(LeastSquares, WithFewerRowsThanColumnsSaysSo) {
-    const estimate fit =
-        least_squares(one_joint(Eigen::MatrixXd{{1.0, 0.0, 1.0}, {0.0, 1.0, 0.0}}, Eigen::Vector2d(1.0, 2.0)), wls);
+    const estimate fit = least_squares(
+        one_joint_rows(Eigen::MatrixXd{{1.0, 0.0, 1.0}, {0.0, 1.0, 0.0}}, Eigen::Vector2d(1.0, 2.0)), wls);
     expect_failure(fit, 2, {0, 2});
 }
 
 TEST(LeastSquares, WithAsManyRowsAsColumnsCannotJudgeItsAnswer) {
-    const estimate fit = least_squares(one_joint(Eigen::Matrix2d::Identity(), Eigen::Vector2d(1.0, 2.0)), ols);
+    const estimate fit = least_squares(one_joint_rows(Eigen::Matrix2d::Identity(), Eigen::Vector2d(1.0, 2.0)), ols);
     expect_failure(fit, 2, {});
     EXPECT_NE(fit.message.find("2 rows for 2 parameters"), std::string::npos) << fit.message;
 }
 
 TEST(LeastSquares, WithoutRowsOrParametersExplainsItself) {
-    expect_failure(least_squares(one_joint(Eigen::MatrixXd(0, 3), Eigen::VectorXd(0)), irls), 0, {});
-    expect_failure(least_squares(one_joint(Eigen::MatrixXd(5, 0), Eigen::VectorXd::Ones(5)), ols), 0, {});
+    expect_failure(least_squares(one_joint_rows(Eigen::MatrixXd(0, 3), Eigen::VectorXd(0)), irls), 0, {});
+    expect_failure(least_squares(one_joint_rows(Eigen::MatrixXd(5, 0), Eigen::VectorXd::Ones(5)), ols), 0, {});
     observation empty;
     empty.dof = 2;
     empty.n_base = 3;
@@ -374,7 +375,7 @@ TEST(LeastSquares, JointWithoutRowsChangesNothing) {
     W << Eigen::VectorXd::Ones(100), Eigen::VectorXd::LinSpaced(100, -1.0, 1.0);
     const Eigen::VectorXd Y = W * Eigen::Vector2d(1.0, -2.0) + 0.1 * test::white_noise(100, random);
     for (const least_squares_method method : {ols, wls, irls}) {
-        const estimate alone = least_squares(one_joint(W, Y), method);
+        const estimate alone = least_squares(one_joint_rows(W, Y), method);
         const estimate beside = least_squares(stack({W, Eigen::MatrixXd(0, 2)}, {Y, Eigen::VectorXd(0)}), method);
         expect_finite(beside);
         EXPECT_LT((alone.chi - beside.chi).norm(), 1e-9);  // the IRLS tolerance

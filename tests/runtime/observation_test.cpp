@@ -19,7 +19,7 @@ namespace {
 
 using test_support::shared_data;
 
-const char* const joint_names[] = {"slide", "wrist"};
+const char* const slide_and_wrist[] = {"slide", "wrist"};
 
 /// One mass with friction: tau = M qdd + Fv qd + Fc sign(qd) + off.
 idim_model_interface mass_model() {
@@ -28,7 +28,7 @@ idim_model_interface mass_model() {
     model.robot = "mass";
     model.dof = 1;
     model.n_base = 4;
-    model.joint_names = joint_names;
+    model.joint_names = slide_and_wrist;
     model.parameter_names = parameters;
     model.regressor = [](const double*, const double* qd, const double* qdd, double, const double*, double* W) {
         W[0] = qdd[0];
@@ -49,7 +49,7 @@ idim_model_interface two_joint_model() {
     model.n_base = 3;
     model.needs_time = 1;
     model.needs_temperature = 1;
-    model.joint_names = joint_names;
+    model.joint_names = slide_and_wrist;
     model.parameter_names = parameters;
     model.regressor = [](const double* q, const double* qd, const double* qdd, double t, const double* temp,
                          double* W) {
@@ -143,7 +143,7 @@ TEST(Observation, RegressorLargerThanTheMemoryKeptIsTheSame) {
     model.robot = "wide";
     model.dof = 2;
     model.n_base = columns;
-    model.joint_names = joint_names;
+    model.joint_names = slide_and_wrist;
     model.regressor = [](const double* q, const double* qd, const double*, double, const double*, double* W) {
         W[7] = q[0];
         W[columns + 9] = qd[1];
@@ -177,7 +177,8 @@ TEST(Observation, RowsOfTheBatchFormAreThoseOfOneSampleAtATime) {
 }
 
 template <class Exception>
-std::string error(const idim_model_interface& model, const std::vector<filtered_samples>& logs, int decimation) {
+std::string error_of_observing(const idim_model_interface& model, const std::vector<filtered_samples>& logs,
+                               int decimation) {
     try {
         observe(model, logs, {10.0, 4, decimation, ""});
     } catch (const Exception& caught) {
@@ -190,25 +191,26 @@ TEST(Observation, LogsThatDoNotFitAreInputErrors) {
     const filtered_samples samples = two_joint_samples(100, 100.0);
     filtered_samples other = two_joint_samples(100, 200.0);
     other.file = "b.csv";
-    EXPECT_EQ(error<input_error>(two_joint_model(), {samples, other}, 1),
+    EXPECT_EQ(error_of_observing<input_error>(two_joint_model(), {samples, other}, 1),
               "b.csv: t: sampled at 200 Hz, but a.csv at 100 Hz; logs used together need one rate");
-    EXPECT_EQ(error<input_error>(mass_model(), {samples}, 1), "a.csv: has 2 joints, the model of mass has 1");
+    EXPECT_EQ(error_of_observing<input_error>(mass_model(), {samples}, 1),
+              "a.csv: has 2 joints, the model of mass has 1");
     filtered_samples cold = samples;
     cold.temp.resize(0, 0);
-    EXPECT_EQ(error<input_error>(two_joint_model(), {cold}, 1),
+    EXPECT_EQ(error_of_observing<input_error>(two_joint_model(), {cold}, 1),
               "a.csv: temp1: this column is missing, the model of pair depends on the temperature");
-    EXPECT_EQ(error<input_error>(two_joint_model(), {two_joint_samples(27, 100.0)}, 2),
+    EXPECT_EQ(error_of_observing<input_error>(two_joint_model(), {two_joint_samples(27, 100.0)}, 2),
               "a.csv: 27 samples are left by the filter, the decimation needs at least 28");
 }
 
 TEST(Observation, RegressorThatIsNotFiniteIsADataError) {
     filtered_samples samples = two_joint_samples(100, 100.0);
     samples.temp(50, 1) = std::numeric_limits<double>::infinity();
-    EXPECT_EQ(error<data_error>(two_joint_model(), {samples}, 10),
+    EXPECT_EQ(error_of_observing<data_error>(two_joint_model(), {samples}, 10),
               "a.csv: the regressor of parameter c at joint wrist is inf at t = 0.5 s");
 }
 
-Eigen::VectorXd ols(const observation& rows) {
+Eigen::VectorXd ordinary_least_squares(const observation& rows) {
     return rows.blocks.at(0).W[0].colPivHouseholderQr().solve(rows.blocks.at(0).Y[0]);
 }
 
@@ -237,7 +239,7 @@ TEST(Observation, KnownMassIsFoundThroughTheChosenFilter) {
     const filter_choice choice = choose_filter({data}, {});
     const observation rows = observe(mass_model(), {filter_log(data, choice)}, choice);
     const Eigen::MatrixXd& W = rows.blocks[0].W[0];
-    const Eigen::Vector4d chi = ols(rows);
+    const Eigen::Vector4d chi = ordinary_least_squares(rows);
     // The decimation leaves band / (rate / 2) of the white torque noise; four deviations [IV 17-18], and 0.5 % for the
     // sign of the velocity near its reversals.
     const double kept = noise * std::sqrt(choice.band(200.0) / 100.0);
@@ -252,7 +254,7 @@ TEST(Observation, KnownMassIsFoundThroughTheChosenFilter) {
 const Eigen::Vector4d emps_published(95.11, 203.4, 20.41, -3.17);
 
 void expect_emps(const observation& rows, double tolerance) {
-    const Eigen::Vector4d chi = ols(rows);
+    const Eigen::Vector4d chi = ordinary_least_squares(rows);
     for (int k = 0; k < 4; ++k) {
         EXPECT_NEAR(chi[k], emps_published[k], tolerance * std::abs(emps_published[k])) << "parameter " << k;
     }
@@ -267,7 +269,7 @@ TEST(Observation, PublishedFilterGivesThePublishedEmpsParameters) {
     const observation rows = observe(mass_model(), {filter_log(read_log(file->string(), {}), choice)}, choice);
     expect_emps(rows, 0.002);
     const observation_block& block = rows.blocks.at(0);
-    const double error = (block.Y[0] - block.W[0] * ols(rows)).norm() / block.Y[0].norm();
+    const double error = (block.Y[0] - block.W[0] * ordinary_least_squares(rows)).norm() / block.Y[0].norm();
     EXPECT_GT(error, 0.0400);  // 4.04 % in the README
     EXPECT_LT(error, 0.0410);
 }

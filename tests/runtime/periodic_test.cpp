@@ -13,7 +13,7 @@ namespace idim::test {
 
 namespace {
 
-constexpr double rate = 20.0;
+constexpr double sampling_rate = 20.0;
 constexpr Eigen::Index period = 200;  // samples: 10 s
 const filter_choice every_sample = {0.0, 4, 1, "", 0.0};
 
@@ -40,13 +40,13 @@ double deviation_at(Eigen::Index k) {
 /// The closed form along whole periods, filtered already; torque noise of first order in time, correlated by 0.8
 /// between the joints, joint 2 with a quarter of it.
 filtered_samples noisy_samples(Eigen::Index periods, std::uint64_t seed, double phi) {
-    const observation_block exact = scara_block(0.0, periods * period, rate, scara_truth(), harmonics);
+    const observation_block exact = scara_block(0.0, periods * period, sampling_rate, scara_truth(), harmonics);
     std::mt19937_64 random(seed);
     const Eigen::VectorXd common = ar1_noise(exact.t.size(), phi, random);
     const Eigen::VectorXd own = ar1_noise(exact.t.size(), phi, random);
     filtered_samples samples;
     samples.file = "scara.csv";
-    samples.rate = rate;
+    samples.rate = sampling_rate;
     samples.t = exact.t;
     samples.q = Eigen::MatrixXd(exact.t.size(), 2);
     samples.tau = samples.q;
@@ -65,7 +65,7 @@ observation averaged_rows(const filtered_samples& samples, const periodic_part& 
     observation rows;
     rows.dof = 2;
     rows.n_base = 8;
-    rows.blocks = {scara_block(0.0, period, rate, scara_truth(), harmonics)};
+    rows.blocks = {scara_block(0.0, period, sampling_rate, scara_truth(), harmonics)};
     const filtered_samples mean = average_periods(samples, part, every_sample);
     for (int j = 0; j < 2; ++j) {
         rows.blocks[0].Y[j] = mean.tau.col(j).segment(25, period);
@@ -78,12 +78,12 @@ periodic_part all_of(Eigen::Index periods) {
 }
 
 /// What one draw of the noise leads to.
-struct draw {
+struct periodic_draw {
     observation rows;
     std::vector<torque_scatter> scatter;
     estimate found;
 
-    draw(Eigen::Index periods, std::uint64_t seed, double phi) {
+    periodic_draw(Eigen::Index periods, std::uint64_t seed, double phi) {
         const filtered_samples samples = noisy_samples(periods, seed, phi);
         rows = averaged_rows(samples, all_of(periods));
         scatter = {scatter_of(samples, all_of(periods), every_sample)};
@@ -97,7 +97,7 @@ TEST(PeriodicAverage, DeviationsCoverTheTruthUnderColouredNoiseCorrelatedBetween
     double covered = 0.0;
     double covered_by_scatter = 0.0;
     for (int run = 1; run <= runs; ++run) {
-        const draw one(12, static_cast<std::uint64_t>(run), 0.6);
+        const periodic_draw one(12, static_cast<std::uint64_t>(run), 0.6);
         const Eigen::ArrayXd error = (one.found.chi - scara_truth()).cwiseAbs();
         const Eigen::ArrayXd by_scatter = scatter_deviations(one.rows, one.scatter);
         covered += static_cast<double>((error < 1.96 * one.found.deviations().array()).count()) / (8.0 * runs);
@@ -116,7 +116,7 @@ TEST(PeriodicAverage, WeightsOfEverySampleAreMorePreciseThanThoseOfJointsWhereTh
     Eigen::ArrayXd weighted = Eigen::ArrayXd::Zero(8);
     Eigen::ArrayXd per_joint = Eigen::ArrayXd::Zero(8);
     for (int run = 1; run <= runs; ++run) {
-        const draw one(24, static_cast<std::uint64_t>(run), 0.0);
+        const periodic_draw one(24, static_cast<std::uint64_t>(run), 0.0);
         weighted += (one.found.chi - scara_truth()).array().square();
         per_joint += (least_squares(one.rows, least_squares_method::wls).chi - scara_truth()).array().square();
     }
@@ -138,7 +138,7 @@ TEST(PeriodicAverage, CovarianceIsPooledWhereTheNoiseDoesNotVaryAndFollowsItWher
     EXPECT_NEAR(S(0, 1) / std::sqrt(S(0, 0) * S(1, 1)), 0.8, 0.15);
 
     filtered_samples even = noisy_samples(6, 4, 0.0);
-    const observation_block exact = scara_block(0.0, even.samples(), rate, scara_truth(), harmonics);
+    const observation_block exact = scara_block(0.0, even.samples(), sampling_rate, scara_truth(), harmonics);
     std::mt19937_64 random(4);
     for (int j = 0; j < 2; ++j) {
         even.tau.col(j) = exact.Y[j] + 0.5 * white_noise(even.samples(), random);
@@ -157,7 +157,7 @@ TEST(PeriodicAverage, FewerPeriodsThanJointsStillGiveACovarianceThatCanBeInverte
 
 TEST(PeriodicAverage, TorqueThatRepeatsExactlyHasNothingToWeightBy) {
     filtered_samples samples = noisy_samples(3, 6, 0.0);
-    const observation_block exact = scara_block(0.0, samples.samples(), rate, scara_truth(), harmonics);
+    const observation_block exact = scara_block(0.0, samples.samples(), sampling_rate, scara_truth(), harmonics);
     samples.tau << exact.Y[0], exact.Y[1];
     EXPECT_FALSE(scatter_of(samples, all_of(3), every_sample).scatters);
 }
@@ -167,13 +167,14 @@ filtered_samples recorded(Eigen::Index rest, double periods, double noise, std::
     const auto moving = static_cast<Eigen::Index>(periods * period);
     std::mt19937_64 random(seed);
     filtered_samples samples;
-    samples.rate = rate;
+    samples.rate = sampling_rate;
     samples.q = Eigen::MatrixXd(2 * rest + moving, 2);
-    samples.t = Eigen::ArrayXd::LinSpaced(samples.q.rows(), 0.0, static_cast<double>(samples.q.rows() - 1) / rate);
+    samples.t =
+        Eigen::ArrayXd::LinSpaced(samples.q.rows(), 0.0, static_cast<double>(samples.q.rows() - 1) / sampling_rate);
     for (int j = 0; j < 2; ++j) {
         samples.q.col(j) = noise * white_noise(samples.q.rows(), random);
         for (Eigen::Index k = 0; k < samples.q.rows(); ++k) {
-            const double t = static_cast<double>(std::clamp<Eigen::Index>(k - rest, 0, moving - 1)) / rate;
+            const double t = static_cast<double>(std::clamp<Eigen::Index>(k - rest, 0, moving - 1)) / sampling_rate;
             samples.q(k, j) += harmonics(t, j).q + 0.3 * std::exp(-t);
         }
     }

@@ -16,8 +16,8 @@ namespace idim::test {
 
 namespace {
 
-constexpr Eigen::Index rows_in_log = 500;
-constexpr double row_rate = 15.0;  // Hz
+constexpr Eigen::Index moving_rows = 500;
+constexpr double moving_rate = 15.0;  // Hz
 
 /// Two joints along sums of sines, `which` other ones in each log; their models are inertia, friction and an offset.
 /// The rows are all samples, none of them at a reversal.
@@ -26,9 +26,9 @@ traced_log moving_log(int which, bool held_back) {
         {{0.11, 0.53, 0.89}, {0.13, 0.61, 1.03}, {0.07, 0.43, 0.97}, {0.17, 0.67, 0.83}}};
     traced_log log;
     log.held_back = held_back;
-    log.rows.rate = log.samples.rate = row_rate;
-    log.samples.t = log.rows.t = Eigen::VectorXd::LinSpaced(rows_in_log, 0.0, (rows_in_log - 1) / row_rate);
-    log.samples.q = log.samples.qd = log.samples.qdd = log.tau_rigid = Eigen::MatrixXd::Zero(rows_in_log, 2);
+    log.rows.rate = log.samples.rate = moving_rate;
+    log.samples.t = log.rows.t = Eigen::VectorXd::LinSpaced(moving_rows, 0.0, (moving_rows - 1) / moving_rate);
+    log.samples.q = log.samples.qd = log.samples.qdd = log.tau_rigid = Eigen::MatrixXd::Zero(moving_rows, 2);
     for (Eigen::Index j = 0; j < 2; ++j) {
         for (std::size_t i = 0; i < 3; ++i) {
             const double w = 2.0 * M_PI * frequency[static_cast<std::size_t>(2 * which + j)][i];
@@ -39,13 +39,13 @@ traced_log moving_log(int which, bool held_back) {
             log.samples.qdd.col(j).array() -= amplitude * w * w * angle.sin();
         }
         log.tau_rigid.col(j) = log.samples.qdd.col(j);
-        Eigen::MatrixXd W = Eigen::MatrixXd::Zero(rows_in_log, 6);
-        W.middleCols(3 * j, 3) << log.samples.qdd.col(j), log.samples.qd.col(j), Eigen::VectorXd::Ones(rows_in_log);
+        Eigen::MatrixXd W = Eigen::MatrixXd::Zero(moving_rows, 6);
+        W.middleCols(3 * j, 3) << log.samples.qdd.col(j), log.samples.qd.col(j), Eigen::VectorXd::Ones(moving_rows);
         log.rows.W.push_back(W);
         log.rows.Y.emplace_back(W * Eigen::VectorXd::Constant(6, 1.5));
-        log.reversal.push_back(row_flags::Constant(rows_in_log, false));
+        log.reversal.push_back(row_flags::Constant(moving_rows, false));
     }
-    log.rows.kept = all_rows(2, rows_in_log);
+    log.rows.kept = all_rows(2, moving_rows);
     return log;
 }
 
@@ -54,7 +54,7 @@ std::vector<traced_log> noisy_logs(double memory, std::mt19937_64& random) {
     std::vector<traced_log> logs = {moving_log(0, false), moving_log(1, true)};
     for (traced_log& log : logs) {
         for (Eigen::VectorXd& Y : log.rows.Y) {
-            Y += ar1_noise(rows_in_log, memory, random);
+            Y += ar1_noise(moving_rows, memory, random);
         }
     }
     return logs;

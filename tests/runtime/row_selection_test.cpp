@@ -13,34 +13,35 @@
 namespace idim {
 namespace {
 
-constexpr double w = 2.0 * std::numbers::pi * 0.25;  // four seconds a period
-constexpr double rate = 100.0;
+constexpr double swing_frequency = 2.0 * std::numbers::pi * 0.25;  // four seconds a period
+constexpr double swing_rate = 100.0;
 
 /// Time of a motion that stands still for three seconds from `pause` on.
 Eigen::ArrayXd paused(const Eigen::VectorXd& t, double pause) {
     return t.array().min(pause) + (t.array() - pause - 3.0).max(0.0);
 }
 
-/// 16 s at 100 Hz. Joint 1 moves as sin(w t), joint 2 as `second` cos(w t), with the deviation `noise` of what its
-/// encoder shows; both reverse every two seconds and rest at one reversal, joint 1 from 5 s and joint 2 from 8 s on.
+/// 16 s at 100 Hz. Joint 1 moves as sin(w t), joint 2 as `second` cos(w t) at w = swing_frequency, with the deviation
+/// `noise` of what its encoder shows; both reverse every two seconds and rest at one reversal, joint 1 from 5 s and
+/// joint 2 from 8 s on.
 filtered_samples swing(double second, double noise = 0.0) {
     constexpr Eigen::Index n = 1601;
     std::mt19937_64 random(3);
     std::normal_distribution<double> normal;
     filtered_samples samples;
     samples.file = "swing.csv";
-    samples.rate = rate;
-    samples.t = Eigen::ArrayXd::LinSpaced(n, 0.0, static_cast<double>(n - 1)) / rate;
-    const Eigen::ArrayXd phase = w * paused(samples.t, 5.0);
-    const Eigen::ArrayXd other = w * paused(samples.t, 8.0);
+    samples.rate = swing_rate;
+    samples.t = Eigen::ArrayXd::LinSpaced(n, 0.0, static_cast<double>(n - 1)) / swing_rate;
+    const Eigen::ArrayXd phase = swing_frequency * paused(samples.t, 5.0);
+    const Eigen::ArrayXd other = swing_frequency * paused(samples.t, 8.0);
     samples.q.resize(n, 2);
     samples.q << phase.sin().matrix(), second * other.cos().matrix();
     samples.qd.resize(n, 2);
-    samples.qd << w * phase.cos().matrix(), -second * w * other.sin().matrix();
-    samples.qdd = -w * w * samples.q;
+    samples.qd << swing_frequency * phase.cos().matrix(), -second * swing_frequency * other.sin().matrix();
+    samples.qdd = -swing_frequency * swing_frequency * samples.q;
     for (Eigen::Index k = 0; k < n; ++k) {
         samples.q(k, 1) += noise * normal(random);
-        samples.qd(k, 1) += noise * rate * normal(random);
+        samples.qd(k, 1) += noise * swing_rate * normal(random);
     }
     samples.tau = samples.q;
     return samples;
@@ -70,7 +71,7 @@ filter_choice slower_than(double minimum_speed, int decimation = 1) {
 }
 
 /// Whether `kept` names sample k.
-bool holds(const std::vector<Eigen::Index>& kept, Eigen::Index k) {
+bool holds_row(const std::vector<Eigen::Index>& kept, Eigen::Index k) {
     return std::binary_search(kept.begin(), kept.end(), k);
 }
 
@@ -85,9 +86,10 @@ TEST(RowSelection, JointLosesItsOwnRestsAndKeepsItsReversals) {
     for (int joint = 0; joint < 2; ++joint) {
         const Eigen::VectorXd speed = samples.qd.col(joint).cwiseAbs();
         for (Eigen::Index k = 0; k < speed.size(); ++k) {
-            // One sample moves by w / 100 = 1.6 % of the top speed at a reversal: 1 % lies within a sample of the rest.
+            // One sample moves by swing_frequency / 100 = 1.6 % of the top speed at a reversal: 1 % lies within a
+            // sample of the rest.
             const bool resting = samples.t[k] > rest[joint] - 0.011 && samples.t[k] < rest[joint] + 3.011;
-            EXPECT_EQ(holds(kept[joint], k), !(resting && speed[k] < 0.01 * speed.maxCoeff())) << k;
+            EXPECT_EQ(holds_row(kept[joint], k), !(resting && speed[k] < 0.01 * speed.maxCoeff())) << k;
         }
         EXPECT_NEAR(static_cast<double>(kept[joint].size()), 1601.0 - 301.0, 2.0);
     }
@@ -103,10 +105,10 @@ TEST(RowSelection, IsJudgedByTheDecimatedSpeed) {
     const std::vector<Eigen::Index> kept = select_rows(samples, slower_than(0.01, 10))[0];
     for (Eigen::Index k = 0; k < 161; ++k) {
         if (k < 48 || k > 82) {
-            EXPECT_TRUE(holds(kept, k)) << k;
+            EXPECT_TRUE(holds_row(kept, k)) << k;
         }
         if (k > 55 && k < 75) {  // clear of the ringing of the filter at the ends of the rest
-            EXPECT_FALSE(holds(kept, k)) << k;
+            EXPECT_FALSE(holds_row(kept, k)) << k;
         }
     }
 }

@@ -15,11 +15,11 @@ using gains = std::array<double, frequencies.size()>;
 
 // Both sides evaluate a product of sections in double; far in the stop band the smallest gain here, 1e-11, has lost
 // five digits in 1 + z^-1 near z = -1.
-constexpr double rounding = 1e-10;
+constexpr double gain_rounding = 1e-10;
 
 void expect_gains(const second_order_sections& filter, const gains& expected) {
     for (size_t k = 0; k < frequencies.size(); ++k) {
-        EXPECT_NEAR(filter.gain(frequencies[k]), expected[k], rounding * expected[k]) << frequencies[k];
+        EXPECT_NEAR(filter.gain(frequencies[k]), expected[k], gain_rounding * expected[k]) << frequencies[k];
     }
 }
 

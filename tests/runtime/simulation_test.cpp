@@ -5,30 +5,33 @@
 #include <cmath>
 
 #include "idim/input_error.hpp"
+#include "support/one_joint.hpp"
 
 namespace {
+
+using idim::test::one;
 
 /// One mass on a rail with viscous and Coulomb friction: chi = (M, Fv, Fc).
 void mass_matrix(const double*, const double* chi, double* M) {
     M[0] = chi[0];
 }
 
-double friction(double speed, const double* chi) {
+double rail_friction(double speed, const double* chi) {
     return chi[1] * speed + chi[2] * (static_cast<double>(speed > 0) - static_cast<double>(speed < 0));
 }
 
-void bias(const double*, const double* qd, double, const double*, const double* chi, double* N) {
-    N[0] = friction(qd[0], chi);
+void rail_bias(const double*, const double* qd, double, const double*, const double* chi, double* N) {
+    N[0] = rail_friction(qd[0], chi);
 }
 
 int forward_dynamics(const double*, const double* qd, const double* tau, double, const double*, const double* chi,
                      double* qdd) {
-    qdd[0] = (tau[0] - friction(qd[0], chi)) / chi[0];
+    qdd[0] = (tau[0] - rail_friction(qd[0], chi)) / chi[0];
     return chi[0] > 0.0 ? 0 : 1;
 }
 
-const char* const joint_names[] = {"rail"};
-const int joint_is_prismatic[] = {1};
+const char* const rail_joint_names[] = {"rail"};
+const int rail_joint_is_prismatic[] = {1};
 
 idim_model_interface rail() {
     idim_model_interface model{};
@@ -36,16 +39,12 @@ idim_model_interface rail() {
     model.robot = "rail";
     model.dof = 1;
     model.n_base = 3;
-    model.joint_names = joint_names;
-    model.joint_is_prismatic = joint_is_prismatic;
+    model.joint_names = rail_joint_names;
+    model.joint_is_prismatic = rail_joint_is_prismatic;
     model.mass_matrix = mass_matrix;
-    model.bias = bias;
+    model.bias = rail_bias;
     model.forward_dynamics = forward_dynamics;
     return model;
-}
-
-Eigen::VectorXd one(double value) {
-    return Eigen::VectorXd::Constant(1, value);
 }
 
 idim::log step_reference(double height, double seconds) {

@@ -7,19 +7,12 @@
 #include <memory>
 #include <random>
 
+#include "support/traced_rows.hpp"
 #include "tracing/trace_fit.hpp"
 
 namespace idim::test {
 
 namespace {
-
-constexpr Eigen::Index rows_in_log = 600;
-constexpr double row_rate = 20.0;  // Hz
-
-Eigen::VectorXd sine(double frequency, double phase = 0.0) {
-    const Eigen::ArrayXd t = Eigen::ArrayXd::LinSpaced(rows_in_log, 0.0, (rows_in_log - 1) / row_rate);
-    return (2.0 * M_PI * frequency * t + phase).sin().matrix();
-}
 
 Eigen::VectorXd noise(double deviation, std::mt19937_64& random) {
     std::normal_distribution<double> normal(0.0, deviation);
@@ -41,7 +34,7 @@ class wave_candidate final : public effect_candidate {
 
 /// Two joints, each with a model of a sine, a cosine and a constant of its own; joint 2 moves along a slow sine whose
 /// phase is the log's own.
-traced_log log_of(const Eigen::VectorXd& first, const Eigen::VectorXd& second, double phase, bool held_back) {
+traced_log two_joint_log(const Eigen::VectorXd& first, const Eigen::VectorXd& second, double phase, bool held_back) {
     traced_log log;
     log.held_back = held_back;
     log.rows.file = "rows";
@@ -73,7 +66,7 @@ std::vector<traced_log> logs_with(double change, std::mt19937_64& random) {
         const double phase = held_back ? 1.0 : 0.0;
         const Eigen::ArrayXd size = 1.0 + change * sine(0.17, phase).array();
         const Eigen::VectorXd wave = size * sine(1.1).array();
-        logs.push_back(log_of(wave + noise(1.0, random), noise(1.0, random), phase, held_back));
+        logs.push_back(two_joint_log(wave + noise(1.0, random), noise(1.0, random), phase, held_back));
     }
     return logs;
 }
@@ -107,7 +100,7 @@ TEST(SizeConstancy, ASmallChangeIsNoOtherEffect) {
     std::vector<traced_log> logs;
     for (const bool held_back : {false, true}) {
         const Eigen::VectorXd wave = (1.0 + 0.1 * sine(0.17).array()) * sine(1.1).array();
-        logs.push_back(log_of(wave + noise(0.02, random), noise(0.02, random), 0.0, held_back));
+        logs.push_back(two_joint_log(wave + noise(0.02, random), noise(0.02, random), 0.0, held_back));
     }
     EXPECT_FALSE(joint_that_changes(fit_with_wave(logs), 0));
 }

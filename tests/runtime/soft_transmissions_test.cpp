@@ -14,22 +14,22 @@ void rigid_torque(const double* q, const double*, const double* qdd, double, con
     tau[0] = chi[0] * qdd[0] + chi[1] * std::cos(q[0]);
 }
 
-double friction(double speed, const double* chi) {
+double rotor_friction(double speed, const double* chi) {
     return chi[3] * (static_cast<double>(speed > 0) - static_cast<double>(speed < 0));
 }
 
-void inverse_dynamics(const double* q, const double* qd, const double* qdd, double t, const double* temp,
-                      const double* chi, double* tau) {
+void soft_inverse_dynamics(const double* q, const double* qd, const double* qdd, double t, const double* temp,
+                           const double* chi, double* tau) {
     rigid_torque(q, qd, qdd, t, chi, tau);
-    tau[0] += chi[2] * temp[3] + friction(temp[2], chi);
+    tau[0] += chi[2] * temp[3] + rotor_friction(temp[2], chi);
 }
 
-void bias(const double* q, const double* qd, double, const double*, const double* chi, double* N) {
-    N[0] = chi[1] * std::cos(q[0]) + friction(qd[0], chi);
+void soft_bias(const double* q, const double* qd, double, const double*, const double* chi, double* N) {
+    N[0] = chi[1] * std::cos(q[0]) + rotor_friction(qd[0], chi);
 }
 
-const char* const joint_names[] = {"arm"};
-const int joint_is_prismatic[] = {0};
+const char* const soft_joint_names[] = {"arm"};
+const int soft_joint_is_prismatic[] = {0};
 
 class SoftJoint : public testing::Test {
   protected:
@@ -38,12 +38,12 @@ class SoftJoint : public testing::Test {
         model_.dof = 1;
         model_.n_base = 4;
         model_.n_signals = 4;
-        model_.joint_names = joint_names;
-        model_.joint_is_prismatic = joint_is_prismatic;
+        model_.joint_names = soft_joint_names;
+        model_.joint_is_prismatic = soft_joint_is_prismatic;
         model_.joint_stiffness = &stiffness_;
         model_.rigid_torque = rigid_torque;
-        model_.inverse_dynamics = inverse_dynamics;
-        model_.bias = bias;
+        model_.inverse_dynamics = soft_inverse_dynamics;
+        model_.bias = soft_bias;
     }
 
     idim::robot_motion at(double q, double qd, const idim::integration_options& options = {}) const {

@@ -25,3 +25,10 @@ inline std::optional<std::filesystem::path> shared_data(const std::string& name)
 }
 
 }  // namespace idim::test_support
+
+/// In a test: its path as `variable`, or the test is skipped.
+#define IDIM_REQUIRE_DATA(variable, name)                                                       \
+    const auto variable = idim::test_support::shared_data(name);                                \
+    if (!variable) {                                                                            \
+        GTEST_SKIP() << name << " is not here: set IDIM_DATA to the folder of measured robots"; \
+    }

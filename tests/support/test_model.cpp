@@ -9,8 +9,6 @@ namespace idim::test {
 
 namespace {
 
-using row_major = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
 /// Compiled in the place of model_interface.cpp, which it includes under another name.
 const char* const interface_source = R"(#define IDIM_MODEL_SYMBOL generated_model
 #include "model_interface.inc"

@@ -15,6 +15,9 @@ struct idim_test_interface;
 
 namespace idim::test {
 
+/// As the generated code lays out its matrices.
+using row_major = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 /// A robot's model, generated in memory, compiled and loaded, with its functions over Eigen vectors.
 class test_model {
   public:

@@ -10,7 +10,7 @@ namespace idim::undeclared {
 
 namespace {
 
-constexpr double step = 1e-4;  // [s]
+constexpr double time_step = 1e-4;  // [s]
 const Eigen::VectorXd no_heat = Eigen::Vector2d(20.0, 20.0);
 
 /// Two prismatic joints at right angles without gravity: 5 kg on the first, 2 kg of them on the second.
@@ -33,11 +33,11 @@ missing_effect effect(const std::string& form, std::map<std::string, double> lin
 }
 
 plant with(const arm& robot, const std::vector<missing_effect>& effects) {
-    return {robot, changes_of(effects, robot), step, Eigen::VectorXd::Zero(2)};
+    return {robot, changes_of(effects, robot), time_step, Eigen::VectorXd::Zero(2)};
 }
 
 void push(plant& machine, double force, double seconds) {
-    for (int k = 0; k < std::lround(seconds / step); ++k) {
+    for (int k = 0; k < std::lround(seconds / time_step); ++k) {
         machine.advance(Eigen::Vector2d(0.0, force), no_heat);
     }
 }
@@ -46,9 +46,9 @@ void push(plant& machine, double force, double seconds) {
 double period_of(plant& machine, double seconds) {
     const double start = machine.q()[1];
     std::vector<double> q;
-    for (int k = 0; k < std::lround(seconds / step); ++k) {
+    for (int k = 0; k < std::lround(seconds / time_step); ++k) {
         q.push_back(machine.q()[1]);
-        push(machine, 0.0, step);
+        push(machine, 0.0, time_step);
     }
     const double slope = (machine.q()[1] - start) / static_cast<double>(q.size());
     double first = 0.0, last = 0.0;
@@ -56,7 +56,7 @@ double period_of(plant& machine, double seconds) {
     for (std::size_t k = 2; k < q.size(); ++k) {
         const double before = q[k - 1] - q[k - 2] - slope, after = q[k] - q[k - 1] - slope;
         if (before < 0.0 && after >= 0.0) {
-            last = static_cast<double>(k) * step;
+            last = static_cast<double>(k) * time_step;
             first = crossings < 0 ? last : first;
             ++crossings;
         }

@@ -64,7 +64,7 @@ void compare_shape(const std::string& name, const value_with_deviation& found, d
 }
 
 /// Sizes of the plant under the names and in the units that the catalogue has for them.
-std::map<std::string, double> shapes_of(const missing_effect& truth) {
+std::map<std::string, double> catalogue_shapes_of(const missing_effect& truth) {
     std::map<std::string, double> shapes = truth.shape;
     const auto rename = [&](const char* own, const char* name, auto convert) {
         if (const auto found = truth.linear.find(own); found != truth.linear.end()) {
@@ -94,7 +94,7 @@ void compare_coefficients(const missing_effect& truth, const found_effect& step,
             done.insert({cosine, sine});
         }
     }
-    const std::map<std::string, double> shapes = shapes_of(truth);
+    const std::map<std::string, double> shapes = catalogue_shapes_of(truth);
     for (const auto& [name, value] : truth.linear) {
         if (!done.count(name) && !shapes.count(name) && step.parameters.count(name)) {
             compare_size(name, step.parameters.at(name), value, result);
