@@ -45,13 +45,14 @@ class cpp_language : public language {
         }
         return fmt::format("{}{})", start, fmt::join(declarations, ",\n" + std::string(start.size(), ' ')));
     }
-    std::string invocation(const std::string& /*robot*/, const std::string& function,
+    /// Qualified: a scalar type of another robot's namespace, its pack, would bring that robot's function in as well.
+    std::string invocation(const std::string& robot, const std::string& function,
                            const std::vector<function_argument>& arguments) const override {
         std::vector<std::string> names;
         for (const function_argument& argument : arguments) {
             names.push_back(argument.name);
         }
-        return fmt::format("{}({});", function, fmt::join(names, ", "));
+        return fmt::format("{}::{}({});", robot, function, fmt::join(names, ", "));
     }
     /// Functions of <cmath> for the built-in types; those of other types are found by their arguments.
     std::vector<std::string> prologue(const std::set<function_kind>& called,

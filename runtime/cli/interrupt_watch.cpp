@@ -23,9 +23,9 @@ void note_interrupt(int signal) {
 }  // namespace
 
 interrupt_watch::interrupt_watch() {
-    struct sigaction action {};
-    action.sa_handler = note_interrupt;
-    sigaction(SIGINT, &action, &before_);
+    struct sigaction noted {};
+    noted.sa_handler = note_interrupt;
+    sigaction(SIGINT, &noted, &before_);
 }
 
 interrupt_watch::~interrupt_watch() {

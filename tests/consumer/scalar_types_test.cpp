@@ -21,6 +21,7 @@
 #include "rx90/model.hpp"
 #include "rx90/regressor.hpp"
 #include "rx90/sines.hpp"
+#include "scara/inverse_dynamics.hpp"  // its function is no candidate for rx90's over its packs
 #include "scara/pack.hpp"
 
 namespace {
