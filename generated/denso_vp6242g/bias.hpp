@@ -322,7 +322,7 @@ void bias(const Scalar* q,
     sc[7] = sin(q[4]);
     sc[8] = cos(q[5]);
     sc[9] = sin(q[5]);
-    bias_sc(q, sc, qd, chi, N);
+    denso_vp6242g::bias_sc(q, sc, qd, chi, N);
 }
 
 }  // namespace idim_models::denso_vp6242g

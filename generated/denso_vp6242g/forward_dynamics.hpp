@@ -509,7 +509,7 @@ void forward_dynamics(const Scalar* q,
     sc[7] = sin(q[4]);
     sc[8] = cos(q[5]);
     sc[9] = sin(q[5]);
-    forward_dynamics_sc(q, sc, qd, tau, chi, qdd, D);
+    denso_vp6242g::forward_dynamics_sc(q, sc, qd, tau, chi, qdd, D);
 }
 
 }  // namespace idim_models::denso_vp6242g

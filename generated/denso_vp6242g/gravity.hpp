@@ -95,7 +95,7 @@ void gravity(const Scalar* q,
     sc[7] = sin(q[4]);
     sc[8] = cos(q[5]);
     sc[9] = sin(q[5]);
-    gravity_sc(q, sc, chi, G);
+    denso_vp6242g::gravity_sc(q, sc, chi, G);
 }
 
 }  // namespace idim_models::denso_vp6242g

@@ -349,7 +349,7 @@ void inverse_dynamics(const Scalar* q,
     sc[7] = sin(q[4]);
     sc[8] = cos(q[5]);
     sc[9] = sin(q[5]);
-    inverse_dynamics_sc(q, sc, qd, qdd, chi, tau);
+    denso_vp6242g::inverse_dynamics_sc(q, sc, qd, qdd, chi, tau);
 }
 
 }  // namespace idim_models::denso_vp6242g

@@ -263,7 +263,7 @@ void mass_matrix(const Scalar* q,
     sc[7] = sin(q[4]);
     sc[8] = cos(q[5]);
     sc[9] = sin(q[5]);
-    mass_matrix_sc(q, sc, chi, M);
+    denso_vp6242g::mass_matrix_sc(q, sc, chi, M);
 }
 
 }  // namespace idim_models::denso_vp6242g

@@ -651,7 +651,7 @@ void regressor(const Scalar* q,
     sc[7] = sin(q[4]);
     sc[8] = cos(q[5]);
     sc[9] = sin(q[5]);
-    regressor_sc(q, sc, qd, qdd, W);
+    denso_vp6242g::regressor_sc(q, sc, qd, qdd, W);
 }
 
 }  // namespace idim_models::denso_vp6242g

@@ -125,7 +125,7 @@ void bias(const Scalar* q,
     sc[1] = cos(q[1]);
     sc[2] = sin(q[0]);
     sc[3] = sin(q[1]);
-    bias_sc(q, sc, qd, chi, N);
+    five_bar::bias_sc(q, sc, qd, chi, N);
 }
 
 }  // namespace idim_models::five_bar

@@ -44,7 +44,7 @@ void closure(const Scalar* q,
     sc[1] = cos(q[1]);
     sc[2] = sin(q[0]);
     sc[3] = sin(q[1]);
-    closure_sc(q, sc, closed);
+    five_bar::closure_sc(q, sc, closed);
 }
 
 }  // namespace idim_models::five_bar

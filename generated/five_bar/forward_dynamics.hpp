@@ -158,7 +158,7 @@ void forward_dynamics(const Scalar* q,
     sc[1] = cos(q[1]);
     sc[2] = sin(q[0]);
     sc[3] = sin(q[1]);
-    forward_dynamics_sc(q, sc, qd, tau, chi, qdd, D);
+    five_bar::forward_dynamics_sc(q, sc, qd, tau, chi, qdd, D);
 }
 
 }  // namespace idim_models::five_bar

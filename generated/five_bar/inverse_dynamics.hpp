@@ -143,7 +143,7 @@ void inverse_dynamics(const Scalar* q,
     sc[1] = cos(q[1]);
     sc[2] = sin(q[0]);
     sc[3] = sin(q[1]);
-    inverse_dynamics_sc(q, sc, qd, qdd, chi, tau);
+    five_bar::inverse_dynamics_sc(q, sc, qd, qdd, chi, tau);
 }
 
 }  // namespace idim_models::five_bar

@@ -100,7 +100,7 @@ void mass_matrix(const Scalar* q,
     sc[1] = cos(q[1]);
     sc[2] = sin(q[0]);
     sc[3] = sin(q[1]);
-    mass_matrix_sc(q, sc, chi, M);
+    five_bar::mass_matrix_sc(q, sc, chi, M);
 }
 
 }  // namespace idim_models::five_bar

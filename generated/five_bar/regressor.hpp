@@ -151,7 +151,7 @@ void regressor(const Scalar* q,
     sc[1] = cos(q[1]);
     sc[2] = sin(q[0]);
     sc[3] = sin(q[1]);
-    regressor_sc(q, sc, qd, qdd, W);
+    five_bar::regressor_sc(q, sc, qd, qdd, W);
 }
 
 }  // namespace idim_models::five_bar

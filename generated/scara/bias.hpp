@@ -59,7 +59,7 @@ void bias(const Scalar* q,
     Scalar sc[2];
     sc[0] = cos(q[1]);
     sc[1] = sin(q[1]);
-    bias_sc(q, sc, qd, chi, N);
+    scara::bias_sc(q, sc, qd, chi, N);
 }
 
 }  // namespace idim_models::scara

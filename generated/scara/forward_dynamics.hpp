@@ -80,7 +80,7 @@ void forward_dynamics(const Scalar* q,
     Scalar sc[2];
     sc[0] = cos(q[1]);
     sc[1] = sin(q[1]);
-    forward_dynamics_sc(q, sc, qd, tau, chi, qdd, D);
+    scara::forward_dynamics_sc(q, sc, qd, tau, chi, qdd, D);
 }
 
 }  // namespace idim_models::scara

@@ -70,7 +70,7 @@ void inverse_dynamics(const Scalar* q,
     Scalar sc[2];
     sc[0] = cos(q[1]);
     sc[1] = sin(q[1]);
-    inverse_dynamics_sc(q, sc, qd, qdd, chi, tau);
+    scara::inverse_dynamics_sc(q, sc, qd, qdd, chi, tau);
 }
 
 }  // namespace idim_models::scara

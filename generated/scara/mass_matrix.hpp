@@ -48,7 +48,7 @@ void mass_matrix(const Scalar* q,
     Scalar sc[2];
     sc[0] = cos(q[1]);
     sc[1] = sin(q[1]);
-    mass_matrix_sc(q, sc, chi, M);
+    scara::mass_matrix_sc(q, sc, chi, M);
 }
 
 }  // namespace idim_models::scara

@@ -71,7 +71,7 @@ void regressor(const Scalar* q,
     Scalar sc[2];
     sc[0] = cos(q[1]);
     sc[1] = sin(q[1]);
-    regressor_sc(q, sc, qd, qdd, W);
+    scara::regressor_sc(q, sc, qd, qdd, W);
 }
 
 }  // namespace idim_models::scara

@@ -369,7 +369,7 @@ void bias(const Scalar* q,
     sc[9] = sin(q[4]);
     sc[10] = cos(q[5]);
     sc[11] = sin(q[5]);
-    bias_sc(q, sc, qd, chi, N);
+    sr400::bias_sc(q, sc, qd, chi, N);
 }
 
 }  // namespace idim_models::sr400

@@ -580,7 +580,7 @@ void forward_dynamics(const Scalar* q,
     sc[9] = sin(q[4]);
     sc[10] = cos(q[5]);
     sc[11] = sin(q[5]);
-    forward_dynamics_sc(q, sc, qd, tau, chi, qdd, D);
+    sr400::forward_dynamics_sc(q, sc, qd, tau, chi, qdd, D);
 }
 
 }  // namespace idim_models::sr400

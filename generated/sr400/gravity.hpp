@@ -112,7 +112,7 @@ void gravity(const Scalar* q,
     sc[9] = sin(q[4]);
     sc[10] = cos(q[5]);
     sc[11] = sin(q[5]);
-    gravity_sc(q, sc, chi, G);
+    sr400::gravity_sc(q, sc, chi, G);
 }
 
 }  // namespace idim_models::sr400

@@ -408,7 +408,7 @@ void inverse_dynamics(const Scalar* q,
     sc[9] = sin(q[4]);
     sc[10] = cos(q[5]);
     sc[11] = sin(q[5]);
-    inverse_dynamics_sc(q, sc, qd, qdd, chi, tau);
+    sr400::inverse_dynamics_sc(q, sc, qd, qdd, chi, tau);
 }
 
 }  // namespace idim_models::sr400

@@ -307,7 +307,7 @@ void mass_matrix(const Scalar* q,
     sc[9] = sin(q[4]);
     sc[10] = cos(q[5]);
     sc[11] = sin(q[5]);
-    mass_matrix_sc(q, sc, chi, M);
+    sr400::mass_matrix_sc(q, sc, chi, M);
 }
 
 }  // namespace idim_models::sr400

@@ -715,7 +715,7 @@ void regressor(const Scalar* q,
     sc[9] = sin(q[4]);
     sc[10] = cos(q[5]);
     sc[11] = sin(q[5]);
-    regressor_sc(q, sc, qd, qdd, W);
+    sr400::regressor_sc(q, sc, qd, qdd, W);
 }
 
 }  // namespace idim_models::sr400

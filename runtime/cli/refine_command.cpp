@@ -123,8 +123,10 @@ std::unique_ptr<const rebuilt_robot> rebuild_what_helps(const refine_options& op
 }
 
 /// Tries what idim itself proposes for structure that no known effect fits, on the same terms as all else.
-void add_proposals(const traced_robot& found, const std::vector<proposed_effect>& proposals, effect_trace& trace) {
+void add_proposals(const traced_robot& found, const std::vector<proposed_effect>& proposals, int most_effects,
+                   effect_trace& trace) {
     trace_input input = found.input();
+    input.most_effects = most_effects;
     input.progress = say;
     for (const proposed_effect& proposal : proposals) {
         input.only.push_back(proposal.place);
@@ -177,8 +179,7 @@ void print_outcome(const refine_outcome& outcome, const refine_options& options)
             fmt::print("    torque {}\n", step.torque);
         }
         for (const effect_parameter& parameter : step.parameters) {
-            fmt::print("    {:<6} {:>12.5g} std {:.2g} {}\n", parameter.name, parameter.value, parameter.std,
-                       parameter.unit);
+            fmt::print("    {}\n", describe(parameter));
         }
         for (const effect_place& other : step.confusable_with) {
             fmt::print("    this data cannot tell it from {}\n", describe(other, outcome.before.robot));
@@ -220,9 +221,12 @@ int run(const refine_options& options) {
     fs::create_directories(options.folder);
     std::unique_ptr<const rebuilt_robot> last =
         rebuild_what_helps(options, before, first.errors.validation, trace.steps);
-    const std::vector<proposed_effect> proposals = write_proposed_effects(trace, before, options.robot, options.folder);
+    const int more_effects = options.most_effects - static_cast<int>(trace.steps.size());
+    const std::vector<proposed_effect> proposals =
+        more_effects > 0 ? write_proposed_effects(trace, before, options.robot, options.folder)
+                         : std::vector<proposed_effect>{};
     if (!proposals.empty()) {
-        add_proposals(with_description(before, description_in(options)), proposals, trace);
+        add_proposals(with_description(before, description_in(options)), proposals, more_effects, trace);
         last = rebuild_what_helps(options, before, last->identified.errors.validation, trace.steps);
         settle_proposals(proposals, trace);
     }

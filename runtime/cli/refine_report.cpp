@@ -34,8 +34,7 @@ std::string step_text(const trace_step& step, const loaded_robot& robot) {
         100.0 * step.after.relative_error);
     text += step.torque.empty() ? "" : fmt::format("  - torque {}\n", step.torque);
     for (const effect_parameter& parameter : step.parameters) {
-        text += fmt::format("  - {} = {:.5g} (std {:.2g}) {}\n", parameter.name, parameter.value, parameter.std,
-                            parameter.unit);
+        text += "  - " + describe(parameter) + "\n";
     }
     for (const effect_place& other : step.confusable_with) {
         text += fmt::format("  - this data cannot tell it from {}\n", describe(other, robot));

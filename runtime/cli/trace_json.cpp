@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
+
 namespace idim::cli {
 
 namespace {
@@ -126,6 +128,13 @@ std::string describe(const effect_place& place, const loaded_robot& robot) {
         text += " from " + joint_name(robot, *place.from);
     }
     return text;
+}
+
+std::string describe(const effect_parameter& parameter) {
+    return std::isfinite(parameter.std)
+               ? fmt::format("{} = {:.5g} (std {:.2g}) {}", parameter.name, parameter.value, parameter.std,
+                             parameter.unit)
+               : fmt::format("{}: this motion does not show it apart from the model's own parameters", parameter.name);
 }
 
 std::string describe(const unsupported_term& term, const trace_errors& with, const loaded_robot& robot) {

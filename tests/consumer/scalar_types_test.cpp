@@ -93,8 +93,6 @@ class PackScalar : public testing::Test {
 using packs = testing::Types<std::experimental::native_simd<double>, xsimd::batch<double>, idim_models::scara::pack>;
 TYPED_TEST_SUITE(PackScalar, packs);
 
-}  // namespace
-
 TYPED_TEST(PackScalar, EveryLaneHasTheValuesOfDouble) {
     const auto q = this->draw(6, 3.0), qd = this->draw(6, 2.0), qdd = this->draw(6, 5.0);
     const auto chi = this->draw(rx90::base_parameters, 2.0);
@@ -295,3 +293,5 @@ TEST(Sines, OfOneStateServeSeveralModels) {
     rx90::mass_matrix_sc(q.data(), sc.data(), chi.data(), M_sc.data());
     EXPECT_EQ(M, M_sc);
 }
+
+}  // namespace

@@ -1,6 +1,7 @@
 // What a URDF may hold, and what is said of one that cannot be read: one line with its line.
 #include "description/urdf/urdf_reader.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <ostream>
@@ -46,7 +47,7 @@ std::string joint(const std::string& name, const std::string& parent, const std:
 std::string links(const std::string& names) {
     std::string text;
     for (const char name : names) {
-        text += std::string("<link name=\"") + name + "\"/>";
+        text += fmt::format("<link name=\"{}\"/>", name);
     }
     return text + "\n";
 }

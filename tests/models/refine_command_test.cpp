@@ -185,6 +185,17 @@ TEST_F(RefineCommand, FrictionOfTheOtherJointIsFoundAtThePair) {
     expect_near(result["steps"][0]["parameters"]["Fcc"], 0.03);
 }
 
+// Joint 1 carries sixteen times the torque and fifteen times the noise of joint 2, where alone the coupling shows.
+TEST_F(RefineCommand, ACouplingThatShowsAtTheLightJointIsFoundAtThePair) {
+    constexpr double viscous = 0.002, coulomb = 0.02;
+    const json result = refine([](const instant& s) {
+        const double both = coulomb * sign(s.qd[0] + s.qd[1]);
+        return std::array<double, 2>{viscous * s.qd[1] + both, viscous * s.qd[0] + both};
+    });
+    expect_one(result, "joint_coupling", {"j1", "j2"});
+    expect_near(result["steps"][0]["parameters"]["Fcc"], coulomb);
+}
+
 TEST_F(RefineCommand, ATiltedBaseIsFoundWithItsAngle) {
     const json result = refine([](const instant& s) { return gravity_torque(s, 0.04); }, "[0, -9.81, 0]");
     ASSERT_EQ(result["steps"].size(), 1U) << result["steps"].dump();

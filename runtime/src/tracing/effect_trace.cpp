@@ -82,6 +82,17 @@ struct suspect {
     int changes_with;
 };
 
+/// Root of the mean over joints of their squared errors, each over what it was before: added up as they are, the joint
+/// with the largest torque would decide alone.
+double error_ratio(const error_summary& before, const error_summary& after) {
+    double parts = 0.0;
+    for (std::size_t j = 0; j < before.joints.size(); ++j) {
+        const double ratio = before.joints[j].rms > 0.0 ? after.joints[j].rms / before.joints[j].rms : 1.0;
+        parts += ratio * ratio;
+    }
+    return std::sqrt(parts / static_cast<double>(before.joints.size()));
+}
+
 class tracer {
   public:
     explicit tracer(const trace_input& input) : input_(input) {
@@ -312,7 +323,7 @@ class tracer {
     /// Why the fit with one term more is not taken, everything fitted again; empty if it is.
     std::string objection_once_fitted(const trace_fit& fit, const trace_fit& with,
                                       const std::vector<int>& joints) const {
-        if (errors_of(with, true).relative_error > (1.0 + error_margin) * errors_of(fit, true).relative_error) {
+        if (error_ratio(errors_of(fit, true), errors_of(with, true)) > 1.0 + error_margin) {
             return "raises the error of the data held back once everything is fitted again";
         }
         if (explained_fraction(fit, with, joints, {}) < least_by_refit) {

@@ -52,22 +52,20 @@ bool is_negligible(const effect_evidence& evidence) {
     return true;
 }
 
-/// Squared residual of some joints of one log, not weighted.
-double squared_error(const std::vector<Eigen::VectorXd>& residual, const std::vector<int>& joints) {
-    double sum = 0.0;
-    for (const int j : joints) {
-        sum += residual[static_cast<std::size_t>(j)].squaredNorm();
-    }
-    return sum;
-}
-
-/// Whether the joints at which the effect acts are predicted worse in some log it was not fitted to. The error over all
-/// joints does not decide: it is that of the joint with the largest torque.
+/// Whether the joints at which the effect acts are predicted worse in some log it was not fitted to: the mean of their
+/// squared errors, each over what it was before. Added up as they are, the error would be that of the joint with the
+/// largest torque, which hardly feels what a light joint beside it gains.
 bool raises_an_error(const trace_fit& fit, const effect_evidence& evidence) {
     const log_series left = residual_with(fit, evidence);
     const std::vector<int>& joints = evidence.term.candidate->joints;
     for (std::size_t l = 0; l < left.size(); ++l) {
-        if (fit.logs()[l].held_back && squared_error(left[l], joints) > squared_error(fit.residual()[l], joints)) {
+        double parts = 0.0;
+        for (const int joint : joints) {
+            const auto j = static_cast<std::size_t>(joint);
+            const double before = fit.residual()[l][j].squaredNorm();
+            parts += before > 0.0 ? left[l][j].squaredNorm() / before : 1.0;
+        }
+        if (fit.logs()[l].held_back && parts > static_cast<double>(joints.size())) {
             return true;
         }
     }
