@@ -131,10 +131,11 @@ std::string describe(const effect_place& place, const loaded_robot& robot) {
 }
 
 std::string describe(const effect_parameter& parameter) {
-    return std::isfinite(parameter.std)
-               ? fmt::format("{} = {:.5g} (std {:.2g}) {}", parameter.name, parameter.value, parameter.std,
-                             parameter.unit)
-               : fmt::format("{}: this motion does not show it apart from the model's own parameters", parameter.name);
+    if (!std::isfinite(parameter.value)) {
+        return fmt::format("{}: this motion does not show it apart from the model's own parameters", parameter.name);
+    }
+    const std::string deviation = std::isfinite(parameter.std) ? fmt::format(" (std {:.2g})", parameter.std) : "";
+    return fmt::format("{} = {:.5g}{} {}", parameter.name, parameter.value, deviation, parameter.unit);
 }
 
 std::string describe(const unsupported_term& term, const trace_errors& with, const loaded_robot& robot) {

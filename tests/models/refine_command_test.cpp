@@ -188,12 +188,18 @@ TEST_F(RefineCommand, FrictionOfTheOtherJointIsFoundAtThePair) {
 // Joint 1 carries sixteen times the torque and fifteen times the noise of joint 2, where alone the coupling shows.
 TEST_F(RefineCommand, ACouplingThatShowsAtTheLightJointIsFoundAtThePair) {
     constexpr double viscous = 0.002, coulomb = 0.02;
-    const json result = refine([](const instant& s) {
-        const double both = coulomb * sign(s.qd[0] + s.qd[1]);
-        return std::array<double, 2>{viscous * s.qd[1] + both, viscous * s.qd[0] + both};
-    });
+    const json result = refine(
+        [](const instant& s) {
+            const double both = coulomb * sign(s.qd[0] + s.qd[1]);
+            return std::array<double, 2>{viscous * s.qd[1] + both, viscous * s.qd[0] + both};
+        },
+        "[0, 0, 0]", ", rotor_inertia");
     expect_one(result, "joint_coupling", {"j1", "j2"});
-    expect_near(result["steps"][0]["parameters"]["Fcc"], coulomb);
+    const json& parameters = result["steps"][0]["parameters"];
+    expect_near(parameters["Fcc"], coulomb);
+    // With the rotors' inertias it is ZZ2 less both of them, and has no value of its own.
+    EXPECT_EQ(parameters["Iac"]["value"], nullptr);
+    EXPECT_EQ(parameters["Iac"]["std"], nullptr);
 }
 
 TEST_F(RefineCommand, ATiltedBaseIsFoundWithItsAngle) {

@@ -12,75 +12,18 @@
 
 #include "idim/inertial_body.hpp"
 #include "oracles/csdp.hpp"
+#include "support/cone_problem.hpp"
 
 namespace idim {
 namespace {
 
-constexpr int bodies = 6;
-constexpr int frictions = 24;
-constexpr int parameter_count = 10 * bodies + frictions;
-constexpr int equations = 52;
+using test::normal_matrix;
+using test::random_problem;
 
-Eigen::MatrixXd normal(Eigen::Index height, Eigen::Index width, std::mt19937_64& random) {
-    std::normal_distribution<double> distribution;
-    Eigen::MatrixXd values(height, width);
-    for (double& value : values.reshaped()) {
-        value = distribution(random);
-    }
-    return values;
-}
-
-/// Six bodies and 24 coefficients seen through 52 combinations; the truth consistent, the noise large enough to lead
-/// away from it.
-struct random_problem {
-    explicit random_problem(double noise, std::uint64_t seed = 1) {
-        std::mt19937_64 random(seed);
-        R = normal(equations, parameter_count, random);
-        program.A = 30.0 * normal(equations, equations, random) * R;
-        truth.resize(parameter_count);
-        start = Eigen::VectorXd::Zero(parameter_count);
-        for (int i = 0; i < bodies; ++i) {
-            const Eigen::Matrix4d L = normal(4, 4, random);
-            truth.segment<10>(10 * i) = parameters_of_pseudo_inertia(0.3 * L * L.transpose());
-            matrix_constraint body;
-            for (int k = 0; k < 10; ++k) {
-                body.places.push_back(10 * i + k);
-                body.basis.emplace_back(pseudo_inertia(body_parameters::Unit(k)));
-            }
-            body.floor = 1e-6;
-            body.size = 100.0;
-            body.reference = Eigen::Vector4d(0.1, 0.1, 0.1, 2.0).asDiagonal();
-            start.segment<10>(10 * i) = parameters_of_pseudo_inertia(body.reference);
-            program.matrices.push_back(body);
-        }
-        for (int k = 10 * bodies; k < parameter_count; ++k) {
-            truth[k] = std::abs(normal(1, 1, random)(0, 0));
-            start[k] = 1.0;
-            program.bounds.push_back({"coefficient", {{k, 1.0}}, 0.0, 1.0});
-        }
-        program.b = program.A * truth + noise * normal(equations, 1, random);
-        program.constant = 1000.0;
-    }
-
-    double objective(const Eigen::VectorXd& x) const {
-        return program.constant + 0.5 * (program.A * x - program.b).squaredNorm();
-    }
-    /// A feasible point, of sizes from a tenth to ten times the usual.
-    Eigen::VectorXd feasible(std::mt19937_64& random) const {
-        Eigen::VectorXd x(parameter_count);
-        for (int i = 0; i < bodies; ++i) {
-            const Eigen::Matrix4d L = std::pow(10.0, normal(1, 1, random)(0, 0)) * normal(4, 4, random);
-            x.segment<10>(10 * i) =
-                parameters_of_pseudo_inertia(L * L.transpose() + 1e-6 * Eigen::Matrix4d::Identity());
-        }
-        x.tail(frictions) = normal(frictions, 1, random).cwiseAbs();
-        return x;
-    }
-
-    Eigen::MatrixXd R;
-    cone_program program;
-    Eigen::VectorXd truth, start;
-};
+constexpr int bodies = random_problem::bodies;
+constexpr int frictions = random_problem::frictions;
+constexpr int parameter_count = random_problem::parameter_count;
+constexpr int equations = random_problem::equations;
 
 constexpr double strong_noise = 300.0;
 
@@ -187,7 +130,7 @@ TEST(ConeProgram, NoFeasiblePointIsBetterThanTheProofAllows) {
 class log_cholesky_fit {
   public:
     log_cholesky_fit(const random_problem& problem, std::mt19937_64& random)
-        : problem_(problem), u_(normal(parameter_count, 1, random)) {}
+        : problem_(problem), u_(normal_matrix(parameter_count, 1, random)) {}
 
     /// x(u) and dx/du [parameters x parameters].
     Eigen::VectorXd point(Eigen::MatrixXd& slope) const {
@@ -303,7 +246,7 @@ TEST(ConeProgram, SensitivityIsTheDerivativeOfTheSolution) {
     random_problem problem(strong_noise);
     const cone_solution found = solve(problem.program, problem.start, 1e-10);
     std::mt19937_64 random(4);
-    const Eigen::VectorXd direction = normal(equations, 1, random);
+    const Eigen::VectorXd direction = normal_matrix(equations, 1, random);
     constexpr double step = 1e-2;
     problem.program.b += step * direction;
     const Eigen::VectorXd ahead = problem.R * solve(problem.program, problem.start, 1e-10).x;

@@ -29,8 +29,8 @@ struct effect_place {
 struct effect_parameter {
     std::string name;
     std::string unit;
-    double value = 0.0;
-    double std = 0.0;       ///< robust to the autocorrelation of the residual
+    double value = 0.0;     ///< not a number where the model's own terms take the coefficient up
+    double std = 0.0;       ///< robust to the autocorrelation of the residual; not a number where none is known
     bool is_shape = false;  ///< enters the description as a shape value
 };
 

@@ -463,8 +463,11 @@ class tracer {
                 if (linear && candidate.linear[k].is_nuisance) {
                     continue;
                 }
-                const auto [value, deviation] = linear ? candidate.declared(values[i].value[c], values[i].deviation[c])
-                                                       : std::pair(values[i].value[c], values[i].deviation[c]);
+                auto [value, deviation] = linear ? candidate.declared(values[i].value[c], values[i].deviation[c])
+                                                 : std::pair(values[i].value[c], values[i].deviation[c]);
+                if (linear && candidate.role == column_role::linear && !std::isfinite(deviation)) {
+                    value = deviation;  // its column is a combination of the others
+                }
                 result_.steps[s].parameters.push_back({linear ? candidate.linear[k].name : candidate.shape[k].name,
                                                        linear ? candidate.linear[k].unit : candidate.shape[k].unit,
                                                        value, deviation,
