@@ -22,7 +22,7 @@ class frame_placer {
           origin_(axes.size()),
           frames_(axes.size()) {
         for (std::size_t k = axes.size(); k-- > 0;) {
-            if (axes[k].antecedent != no_axis) {
+            if (axes[k].antecedent != base_link) {
                 successor_[at(axes[k].antecedent)] = static_cast<int>(k);
             }
         }
@@ -47,7 +47,7 @@ class frame_placer {
 
     /// No axis inward turns what is along the axis (revolute), or anything (prismatic): such offsets cost nothing.
     bool is_steady(std::size_t k) const {
-        for (int a = axes_[k].antecedent; a != no_axis; a = axes_[at(a)].antecedent) {
+        for (int a = axes_[k].antecedent; a != base_link; a = axes_[at(a)].antecedent) {
             if (!is_prismatic(at(a)) &&
                 (is_prismatic(k) || !are_parallel(axes_[at(a)].direction, axes_[k].direction))) {
                 return false;
@@ -79,7 +79,7 @@ class frame_placer {
 
     bool follows_parallel(std::size_t k) const {
         const int before = axes_[k].antecedent;
-        return before != no_axis && !is_prismatic(at(before)) &&
+        return before != base_link && !is_prismatic(at(before)) &&
                are_parallel(axes_[at(before)].direction, axes_[k].direction);
     }
 
@@ -99,7 +99,8 @@ class frame_placer {
 
     /// What is open yet, and x: the antecedent's frame is complete.
     void place_outward(std::size_t k) {
-        const axis_frame antecedent = axes_[k].antecedent == no_axis ? axis_frame{} : frames_[at(axes_[k].antecedent)];
+        const axis_frame antecedent =
+            axes_[k].antecedent == base_link ? axis_frame{} : frames_[at(axes_[k].antecedent)];
         if (!origin_[k]) {
             origin_[k] = is_prismatic(k) ? prismatic_origin(k, antecedent) : foot_on(line(k), antecedent.axis());
         }

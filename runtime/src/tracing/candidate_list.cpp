@@ -101,19 +101,36 @@ std::vector<candidate_pointer> list_candidates(const trace_input& input, const s
         }
     }
     const auto taken = [&](const candidate_pointer& candidate) {
-        const effect_place place{candidate->effect, candidate->joints, candidate->from};
+        const effect_place place = candidate->place();
         const bool asked =
             input.only.empty() || std::find(input.only.begin(), input.only.end(), place) != input.only.end();
         if (!asked || (candidate->is_of_the_robot && is_declared(input, candidate->effect))) {
             return true;
         }
         return std::find(input.declared.begin(), input.declared.end(), place) != input.declared.end() ||
-               std::any_of(terms.begin(), terms.end(), [&](const effect_term& term) {
-                   return place == effect_place{term.candidate->effect, term.candidate->joints, term.candidate->from};
-               });
+               std::any_of(terms.begin(), terms.end(),
+                           [&](const effect_term& term) { return place == term.candidate->place(); });
     };
     list.erase(std::remove_if(list.begin(), list.end(), taken), list.end());
     return list;
+}
+
+std::optional<effect_term> term_of(const trace_step& step, const std::vector<candidate_pointer>& candidates) {
+    const auto same = [&](const candidate_pointer& candidate) { return candidate->place() == step.place; };
+    const auto candidate = std::find_if(candidates.begin(), candidates.end(), same);
+    if (candidate == candidates.end()) {
+        return std::nullopt;
+    }
+    std::vector<double> shape;
+    for (const shape_bound& bound : (*candidate)->shape) {
+        const auto written = [&](const effect_parameter& parameter) { return parameter.name == bound.name; };
+        const auto found = std::find_if(step.parameters.begin(), step.parameters.end(), written);
+        if (found == step.parameters.end()) {
+            return std::nullopt;
+        }
+        shape.push_back(found->value);
+    }
+    return effect_term{*candidate, Eigen::Map<Eigen::VectorXd>(shape.data(), static_cast<Eigen::Index>(shape.size()))};
 }
 
 }  // namespace idim

@@ -244,27 +244,6 @@ class tracer {
         return std::nullopt;
     }
 
-    /// The term of a step found before, with the step's shape; nothing where no candidate stands there.
-    static std::optional<effect_term> term_of(const trace_step& step,
-                                              const std::vector<candidate_pointer>& candidates) {
-        const auto same = [&](const candidate_pointer& candidate) { return candidate->place() == step.place; };
-        const auto candidate = std::find_if(candidates.begin(), candidates.end(), same);
-        if (candidate == candidates.end()) {
-            return std::nullopt;
-        }
-        std::vector<double> shape;
-        for (const shape_bound& bound : (*candidate)->shape) {
-            const auto written = [&](const effect_parameter& parameter) { return parameter.name == bound.name; };
-            const auto found = std::find_if(step.parameters.begin(), step.parameters.end(), written);
-            if (found == step.parameters.end()) {
-                return std::nullopt;
-            }
-            shape.push_back(found->value);
-        }
-        return effect_term{*candidate,
-                           Eigen::Map<Eigen::VectorXd>(shape.data(), static_cast<Eigen::Index>(shape.size()))};
-    }
-
     /// The fit with the terms of an earlier trace.
     trace_fit with_steps_found(trace_fit fit) {
         if (input_.found.empty()) {

@@ -14,8 +14,8 @@ namespace idim {
 namespace {
 
 constexpr int blocks = 10;  ///< of cross-validation, each a stretch of time
-constexpr double as_good_form =
-    0.02;  ///< of the residual: of forms that explain as much but for this the simplest is taken
+/// Of the residual: of forms that explain as much but for this the simplest is taken.
+constexpr double as_good_form = 0.02;
 constexpr double least_by_form = 0.05;  ///< of the residual, in the blocks left out
 constexpr double collinear = 1e-3;      ///< part of a term's norm that is left outside the model
 
