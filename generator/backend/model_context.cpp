@@ -281,6 +281,7 @@ void set_effects(const robot_model& model, template_context& context) {
     for (std::size_t j = 0; j < context.joints.size(); ++j) {
         context.joints[j].torque_delay = parameters.drives[j].delay;
         context.joints[j].stiffness = parameters.drives[j].stiffness;
+        context.joints[j].damping = parameters.drives[j].damping;
     }
     for (std::size_t k = 0; k < context.base_parameters.size(); ++k) {
         context.base_parameters[k].per_log = parameters.all[model.base.parameters[k].standard].per_log;

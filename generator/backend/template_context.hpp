@@ -41,6 +41,7 @@ struct joint_context {
     std::string position_unit;
     double torque_delay = 0.0;  ///< [s]
     double stiffness = 0.0;     ///< 0 where the transmission is rigid
+    double damping = 0.0;       ///< of a transmission that is not
 };
 
 struct parameter_context {

@@ -16,7 +16,7 @@ enum class effect_kind {
     expression,
     delay,       ///< the torque of the joint is measured late, by the shape Td [s]
     gain,        ///< the torque of the joint is scaled by 1 + Ke
-    elasticity,  ///< the link lags its motor by the torque over the stiffness K
+    elasticity,  ///< the link swings behind its motor, held by the stiffness K and the damping D
     tilt,        ///< gravity is turned by tilt_x, tilt_y about axes x and y of the base [rad]
     payload,     ///< ten inertial parameters at the link, from t0 to t1 [s]
 };

@@ -27,12 +27,17 @@ void set_gain(const effect_use& use, const effect_description& effect, drive_mod
     drive.gain *= 1 + exact_decimal(error, use.where);
 }
 
-void set_stiffness(const effect_use& use, const effect_description& effect, int coordinate, drive_model& drive) {
+void set_transmission(const effect_use& use, const effect_description& effect, int coordinate, drive_model& drive) {
     const double stiffness = shape_value(use, effect, "K");
     if (!(stiffness > 0.0)) {
         throw input_error(use.where, fmt::format("effect {}: K = {}, expected more than 0", effect.name, stiffness));
     }
+    const double damping = use.shape.count("D") > 0 ? shape_value(use, effect, "D") : 0.0;
+    if (!(damping >= 0.0)) {
+        throw input_error(use.where, fmt::format("effect {}: D = {}, expected 0 or more", effect.name, damping));
+    }
     drive.stiffness = stiffness;
+    drive.damping = damping;
     drive.motor = {GiNaC::symbol(fmt::format("qm{}", coordinate + 1)),
                    GiNaC::symbol(fmt::format("qmd{}", coordinate + 1)),
                    GiNaC::symbol(fmt::format("qmdd{}", coordinate + 1))};
@@ -52,7 +57,7 @@ std::vector<drive_model> read_drives(const kinematic_tree& tree, const std::vect
                 drive_at(drives, tree, uses[u], joint).delay += shape_value(uses[u], effect, "Td");
             } else if (effect.kind == effect_kind::elasticity) {
                 drive_model& drive = drive_at(drives, tree, uses[u], joint);
-                set_stiffness(uses[u], effect, tree.joints[static_cast<std::size_t>(joint)].coordinate, drive);
+                set_transmission(uses[u], effect, tree.joints[static_cast<std::size_t>(joint)].coordinate, drive);
             }
         }
     }

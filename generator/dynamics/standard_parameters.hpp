@@ -54,6 +54,7 @@ struct drive_model {
     GiNaC::ex gain = 1;      ///< recorded torque per torque
     double delay = 0.0;      ///< of the record [s]
     double stiffness = 0.0;  ///< of the transmission [N*m/rad or N/m]; 0 where it is rigid
+    double damping = 0.0;    ///< of the transmission [N*m*s/rad or N*s/m]
     /// Position, velocity and acceleration of the motor, joint side, where the transmission is not rigid: effects at
     /// the joint read these.
     std::array<GiNaC::symbol, 3> motor;

@@ -175,6 +175,7 @@ std::vector<context_data> joints(const std::vector<joint_context>& list) {
         entry.set("position_unit", joint.position_unit);
         entry.set("torque_delay", fmt::format("{}", joint.torque_delay));
         entry.set("stiffness", fmt::format("{}", joint.stiffness));
+        entry.set("damping", fmt::format("{}", joint.damping));
     }
     return result;
 }

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 #include "idim/zero_phase_filter.hpp"
+#include "link_swing.hpp"
 
 namespace idim {
 
@@ -69,60 +69,14 @@ Eigen::MatrixXd rigid_torques(const idim_model_interface& model, const filtered_
     return torque;
 }
 
-/// Low-pass for the twist of a transmission, somewhat below the frequency at which the link swings behind a motor that
-/// stands still: there the fixed point contracts, and from there on upward no motion of the link follows from that of
-/// the motor. Nothing where the parameters are not those of a link that can swing.
-std::optional<second_order_sections> twist_filter(const idim_model_interface& model, const filtered_samples& motor,
-                                                  const Eigen::VectorXd& chi, int joint) {
-    constexpr Eigen::Index looks = 64;
-    constexpr double share_of_swing = 0.6;
-    constexpr int order = 6;
-    Eigen::MatrixXd M(model.dof, model.dof);
-    double inertia = 0.0;
-    for (Eigen::Index k = 0; k < motor.samples(); k += std::max<Eigen::Index>(1, motor.samples() / looks)) {
-        const Eigen::VectorXd q = motor.q.row(k);
-        model.mass_matrix(q.data(), chi.data(), M.data());
-        inertia = std::max(inertia, M(joint, joint));
-    }
-    if (!(inertia > 0.0)) {
-        return std::nullopt;
-    }
-    const double swing = std::sqrt(stiffness_of(model, joint) / inertia) / (2.0 * M_PI);
-    return butterworth_lowpass(order, std::min(0.5, share_of_swing * swing / (0.5 * motor.rate)));
-}
-
-using twist_filters = std::vector<std::optional<second_order_sections>>;
-
-/// Puts the links as far behind their motors as some torques twist the transmissions.
-void twist(const idim_model_interface& model, const filtered_samples& motor, const Eigen::MatrixXd& torque,
-           const twist_filters& filters, filtered_samples& link) {
+std::vector<soft_transmission> transmissions_of(const idim_model_interface& model) {
+    std::vector<soft_transmission> soft;
     for (int j = 0; j < model.dof; ++j) {
-        const auto& filter = filters[static_cast<std::size_t>(j)];
-        if (filter && motor.samples() > padding(*filter)) {
-            const Eigen::VectorXd angle = zero_phase_filter(*filter, torque.col(j)) / stiffness_of(model, j);
-            const Eigen::VectorXd rate = differences(angle, motor.rate);
-            link.q.col(j) = motor.q.col(j) - angle;
-            link.qd.col(j) = motor.qd.col(j) - rate;
-            link.qdd.col(j) = motor.qdd.col(j) - differences(rate, motor.rate);
+        if (const double stiffness = stiffness_of(model, j); stiffness > 0.0) {
+            soft.push_back({j, stiffness, damping_of(model, j)});
         }
     }
-}
-
-/// Puts the motion of the links in the place of that of the motors.
-void follow_links(const idim_model_interface& model, const filtered_samples& motor, const Eigen::VectorXd& chi,
-                  filtered_samples& link) {
-    constexpr int most_steps = 60;
-    constexpr double settled = 1e-11;
-    twist_filters filters;
-    for (int j = 0; j < model.dof; ++j) {
-        filters.push_back(stiffness_of(model, j) > 0.0 ? twist_filter(model, motor, chi, j) : std::nullopt);
-    }
-    double change = 1.0;
-    for (int step = 0; step < most_steps && change > settled; ++step) {
-        const Eigen::MatrixXd before = link.q;
-        twist(model, motor, rigid_torques(model, link, chi), filters, link);
-        change = (link.q - before).cwiseAbs().maxCoeff() / std::max(1.0, motor.q.cwiseAbs().maxCoeff());
-    }
+    return soft;
 }
 
 /// A first guess without parameters: the measured torque twists the transmissions. Rotors and links could not be told
@@ -130,12 +84,17 @@ void follow_links(const idim_model_interface& model, const filtered_samples& mot
 void follow_measured_torque(const idim_model_interface& model, const filtered_samples& motor, filtered_samples& link) {
     constexpr int order = 6;
     constexpr double part_of_nyquist = 0.05;  // derivatives of measured torques are of use at low frequencies only
-    twist_filters filters;
-    for (int j = 0; j < model.dof; ++j) {
-        filters.push_back(stiffness_of(model, j) > 0.0 ? std::optional(butterworth_lowpass(order, part_of_nyquist))
-                                                       : std::nullopt);
+    const second_order_sections filter = butterworth_lowpass(order, part_of_nyquist);
+    if (motor.samples() <= padding(filter)) {
+        return;
     }
-    twist(model, motor, motor.tau, filters, link);
+    for (const soft_transmission& t : transmissions_of(model)) {
+        const Eigen::VectorXd angle = zero_phase_filter(filter, motor.tau.col(t.joint)) / t.stiffness;
+        const Eigen::VectorXd rate = differences(angle, motor.rate);
+        link.q.col(t.joint) -= angle;
+        link.qd.col(t.joint) -= rate;
+        link.qdd.col(t.joint) -= differences(rate, motor.rate);
+    }
 }
 
 /// Runs the states along the samples; `signals` holds everything else.
@@ -160,6 +119,10 @@ void run_states(const idim_model_interface& model, const filtered_samples& sampl
 
 double stiffness_of(const idim_model_interface& model, int joint) {
     return model.joint_stiffness == nullptr ? 0.0 : model.joint_stiffness[joint];
+}
+
+double damping_of(const idim_model_interface& model, int joint) {
+    return model.joint_damping == nullptr ? 0.0 : model.joint_damping[joint];
 }
 
 bool has_soft_joint(const idim_model_interface& model) {
@@ -201,7 +164,8 @@ filtered_samples completed(const idim_model_interface& model, const filtered_sam
         signals.middleCols(place + 2 * n, n) = samples.qdd;
         place += 3 * n;
         if (chi.size() > 0) {
-            follow_links(model, samples, chi, result);
+            result = links_behind(samples, transmissions_of(model),
+                                  [&](const filtered_samples& links) { return rigid_torques(model, links, chi); });
         } else if (samples.tau.size() > 0) {
             follow_measured_torque(model, samples, result);
         }

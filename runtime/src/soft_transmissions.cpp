@@ -33,7 +33,8 @@ Eigen::VectorXd soft_transmissions::residual(const instant& at, const Eigen::Vec
     model_.rigid_torque(at.link, at.link_speed.data(), acceleration.data(), at.t, chi_.data(), of_links.data());
     for (Eigen::Index k = 0; k < count(); ++k) {
         const int j = joints_[static_cast<std::size_t>(k)];
-        result[n + k] = of_links[j] - stiffness_of(model_, j) * (at.motor[j] - at.link[j]);
+        result[n + k] = of_links[j] - stiffness_of(model_, j) * (at.motor[j] - at.link[j]) -
+                        damping_of(model_, j) * (at.motor_speed[j] - at.link_speed[j]);
     }
     return result;
 }

@@ -7,9 +7,10 @@
 
 namespace idim {
 
-/// Motors and links that transmissions of finite stiffness K join (Spong 1987, reduced by no rotor's own turning in
-/// space): a soft joint has two coordinates, its motor's and its link's, tau_j = K (motor - link) + what acts on the
-/// motor, and K (motor - link) is the torque of the link. All on the joint's side.
+/// Motors and links that transmissions of finite stiffness K and damping D join (Spong 1987, reduced by no rotor's own
+/// turning in space): a soft joint has two coordinates, its motor's and its link's, tau_j is the torque of the link
+/// and what acts on the motor, and the torque of the link is K (motor - link) + D (motor - link)'. All on the joint's
+/// side.
 class soft_transmissions {
   public:
     soft_transmissions(const idim_model_interface& model, const Eigen::VectorXd& chi);

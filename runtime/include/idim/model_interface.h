@@ -4,7 +4,7 @@
 #ifndef IDIM_MODEL_INTERFACE_H
 #define IDIM_MODEL_INTERFACE_H
 
-#define IDIM_MODEL_ABI 5
+#define IDIM_MODEL_ABI 6
 
 /* What forward_dynamics returns where it found no accelerations that give the torque. */
 #define IDIM_NOT_CONVERGED (-1)
@@ -78,6 +78,7 @@ struct idim_model_interface {
     const char* const* state_names;    /* [n_states] such as z2; null if there are none */
     const double* torque_delay;        /* [n] how late the torque is recorded [s]: the rows of a joint are those of the state so long before */
     const double* joint_stiffness;     /* [n] N*m/rad or N/m; 0 where the transmission is rigid */
+    const double* joint_damping;       /* [n] N*m*s/rad or N*s/m, of transmissions that are not */
     const int* parameter_is_per_log;   /* [b] 1 where every log has a value of its own */
     /* Torque of links and payloads alone [n]; null if no effect needs it */
     void (*rigid_torque)(const double* q, const double* qd, const double* qdd, double t, const double* chi, double* tau_rigid);

@@ -15,6 +15,9 @@ bool depends_on_parameters(const idim_model_interface& model);
 /// Of the transmission of a joint [N*m/rad or N/m]; 0 where it is rigid.
 double stiffness_of(const idim_model_interface& model, int joint);
 
+/// Of the transmission of a joint [N*m*s/rad or N*s/m].
+double damping_of(const idim_model_interface& model, int joint);
+
 /// Whether a transmission is not rigid.
 bool has_soft_joint(const idim_model_interface& model);
 
@@ -24,10 +27,8 @@ filtered_samples earlier(const filtered_samples& samples, double shift);
 
 /// Samples with all that the model reads beside the motion in `temp` (see model_interface.h), at the full rate:
 /// temperatures, states of effects run from the first sample on, and where there are soft transmissions the motion of
-/// the links, q_link = q_motor - tau_rigid(q_link) / K with its differences, solved by fixed point below the
-/// frequency at which the links swing behind their motors; that of the motors
-/// is then a signal. `chi` [b]: where it is empty the measured torque stands for that
-/// of the links.
+/// the links as they swing behind their motors, tau_rigid(link) = K (motor - link) + D (motor - link)'; that of the
+/// motors is then a signal. `chi` [b]: where it is empty the measured torque stands for that of the links.
 filtered_samples completed(const idim_model_interface& model, const filtered_samples& samples,
                            const Eigen::VectorXd& chi);
 

@@ -11,23 +11,10 @@ namespace idim {
 
 namespace {
 
-/// Where the linearisation of an effect on the model's own torque starts: a quarter of a sample's delay, a compliance
-/// whose twist is a thousandth of the smallest range of motion at the largest torque.
+/// Where the linearisation of a delay starts: a quarter of a sample.
 constexpr double first_delay = 0.25;
-constexpr double first_twist = 1e-3;
 
-double first_compliance(const trace_input& input, int joint) {
-    double range = 0.0;
-    double torque = 0.0;
-    for (const filtered_samples& log : input.fitted) {
-        range = std::max(range, log.q.col(joint).maxCoeff() - log.q.col(joint).minCoeff());
-        torque = std::max(torque, log.tau.col(joint).cwiseAbs().maxCoeff());
-    }
-    return torque > 0.0 ? first_twist * range / torque : 0.0;
-}
-
-void add_at_joints(const trace_input& input, const idim_effect& effect, const Eigen::VectorXd& chi,
-                   std::vector<candidate_pointer>& list) {
+void add_at_joints(const trace_input& input, const idim_effect& effect, std::vector<candidate_pointer>& list) {
     const idim_model_interface& model = *input.model;
     const double period = 1.0 / input.fitted.front().rate;
     for (int j = 0; j < model.dof; ++j) {
@@ -40,9 +27,8 @@ void add_at_joints(const trace_input& input, const idim_effect& effect, const Ei
                 break;
             case IDIM_EFFECT_ELASTICITY:
                 // The motion of motors and states are signals of such a model, which a link's own motion does not give.
-                if (const double compliance = first_compliance(input, j);
-                    compliance > 0.0 && model.n_signals <= model.dof) {
-                    list.push_back(elasticity_candidate(model, chi, j, compliance));
+                if (model.n_signals <= model.dof) {
+                    list.push_back(elasticity_candidate(model.dof, j));
                 }
                 break;
             case IDIM_EFFECT_PAYLOAD:
@@ -97,7 +83,7 @@ std::vector<candidate_pointer> list_candidates(const trace_input& input, const s
         } else if (effect.scope == IDIM_EFFECT_PAIR) {
             add_at_pairs(input, effect, list);
         } else {
-            add_at_joints(input, effect, chi, list);
+            add_at_joints(input, effect, list);
         }
     }
     const auto taken = [&](const candidate_pointer& candidate) {

@@ -23,6 +23,7 @@ struct linear_bound {
     double negligible = 0.0;  ///< a smaller value is none of the robot's
     double max = std::numeric_limits<double>::infinity();
     bool is_nuisance = false;  ///< fitted, but no coefficient of the effect
+    bool is_one = false;       ///< not fitted: the shape says how large the effect is; the only coefficient then
 };
 
 /// A coefficient that enters nonlinearly and is searched in [low, high].
@@ -31,6 +32,7 @@ struct shape_bound {
     std::string unit;
     double low = 0.0;
     double high = 0.0;
+    bool is_instant = false;  ///< a time at which rows begin or cease to count
 };
 
 /// How the coefficient of a column becomes what the description declares.
@@ -88,6 +90,8 @@ class effect_candidate {
     virtual std::vector<Eigen::VectorXd> starts(const trace_fit& /*fit*/) const { return {}; }
     /// Independent shapes that `starts` chose from, at least.
     virtual int shapes_tried(const trace_fit& /*fit*/) const { return 1; }
+    /// A better shape near one that was found, where `starts` knows the way.
+    virtual Eigen::VectorXd shape_near(const trace_fit& /*fit*/, const Eigen::VectorXd& at) const { return at; }
 };
 
 using candidate_pointer = std::shared_ptr<const effect_candidate>;

@@ -248,7 +248,7 @@ trace_fit with_refined_shapes(const trace_fit& fit) {
     std::vector<effect_term> terms = fit.terms();
     for (int pass = 0; pass < 2; ++pass) {
         for (std::size_t i = 0; i < terms.size(); ++i) {
-            if (terms[i].shape.size() == 1) {
+            if (terms[i].shape.size() > 0) {
                 const trace_fit others = without(trace_fit(fit.logs(), terms, fit.noise()), i);
                 const double reach = (pass == 0 ? 0.2 : 0.02) * std::abs(terms[i].shape[0]);
                 terms[i] = refine_shape(others, terms[i], reach).term;

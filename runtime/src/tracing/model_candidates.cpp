@@ -1,13 +1,7 @@
 #include "model_candidates.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <optional>
 #include <utility>
-
-#include "idim/power_spectrum.hpp"
-#include "idim/zero_phase_filter.hpp"
 
 namespace idim {
 
@@ -66,107 +60,6 @@ class scaled_torque final : public effect_candidate {
     }
 };
 
-/// Central differences along the samples, one-sided at the ends.
-Eigen::VectorXd differentiated(const Eigen::Ref<const Eigen::VectorXd>& x, double rate) {
-    const Eigen::Index n = x.size();
-    Eigen::VectorXd d = Eigen::VectorXd::Zero(n);
-    if (n > 2) {
-        d.segment(1, n - 2) = (x.tail(n - 2) - x.head(n - 2)) * (0.5 * rate);
-        d[0] = d[1];
-        d[n - 1] = d[n - 2];
-    }
-    return d;
-}
-
-/// Where the second derivative of a signal sinks into its noise [Hz]: the lowest point of its spectrum, means over half
-/// octaves, above the band of the signal itself; none where the spectrum does not rise fourfold again.
-std::optional<double> noise_begins(const Eigen::VectorXd& signal, double rate) {
-    constexpr double visible_rise = 4.0;
-    const Eigen::Index segment = welch_segment(signal.size());
-    const power_spectrum second = welch_spectrum(differentiated(differentiated(signal, rate), rate), rate, segment);
-    const double step = std::exp2(0.25);
-    double lowest = std::numeric_limits<double>::infinity();
-    std::optional<double> valley;
-    for (double f = energy_frequency(welch_spectrum(signal, rate, segment), 0.99, 0.5 * rate); f * step < 0.4 * rate;
-         f *= step) {
-        const Eigen::ArrayXd near = (second.frequency > f / step && second.frequency < f * step).cast<double>();
-        const double level = near.sum() > 0.0 ? (near * second.density).sum() / near.sum() : lowest;
-        if (level < lowest) {
-            lowest = level;
-            valley = f;
-        } else if (level > visible_rise * lowest) {
-            return valley;
-        }
-    }
-    return std::nullopt;
-}
-
-/// The signal without what its second derivative shows of noise alone: a column made of noise would be fitted to the
-/// torque that the controller gives in answer to that noise.
-Eigen::VectorXd without_noise(const Eigen::VectorXd& signal, double rate) {
-    constexpr int order = 4;
-    constexpr Eigen::Index shortest = 64;  // samples, for a spectrum
-    const std::optional<double> cutoff = signal.size() < shortest ? std::nullopt : noise_begins(signal, rate);
-    return cutoff ? Eigen::VectorXd(zero_phase_filter(butterworth_lowpass(order, *cutoff / (0.5 * rate)), signal))
-                  : signal;
-}
-
-class soft_transmission final : public effect_candidate {
-  public:
-    soft_transmission(const idim_model_interface& model, Eigen::VectorXd rigid, int joint, double at)
-        : model_(model), rigid_(std::move(rigid)), joint_(joint), at_(at) {
-        effect = "joint_elasticity";
-        joints = {joint};
-        for (int j = 0; j < model.dof; ++j) {
-            touched.push_back(j);
-        }
-        linear = {{"K", "N*m/rad", 0.0}};
-        role = column_role::shape;
-    }
-    Eigen::MatrixXd rows(const traced_log& log, int joint, const Eigen::VectorXd& at) const override {
-        return touched_rows(log, at)[static_cast<std::size_t>(joint)];
-    }
-    std::vector<Eigen::MatrixXd> touched_rows(const traced_log& log, const Eigen::VectorXd&) const override {
-        const filtered_samples& motor = log.samples;
-        const auto count = static_cast<std::size_t>(motor.samples());
-        const Eigen::VectorXd twist = at_ * without_noise(log.tau_rigid.col(joint_), motor.rate);
-        const Eigen::VectorXd twist_rate = differentiated(twist, motor.rate);
-        Eigen::MatrixXd q = motor.q;
-        Eigen::MatrixXd qd = motor.qd;
-        Eigen::MatrixXd qdd = motor.qdd;
-        const Eigen::VectorXd twist_acceleration = differentiated(twist_rate, motor.rate);
-        q.col(joint_) -= twist;
-        qd.col(joint_) -= twist_rate;
-        qdd.col(joint_) -= twist_acceleration;
-        const idim_samples link = {count,
-                                   count,
-                                   q.data(),
-                                   qd.data(),
-                                   qdd.data(),
-                                   motor.t.data(),
-                                   motor.temp.size() > 0 ? motor.temp.data() : nullptr};
-        Eigen::MatrixXd tau(motor.samples(), model_.dof);
-        model_.inverse_dynamics_batch(&link, rigid_.data(), tau.data(), count);
-        std::vector<Eigen::MatrixXd> columns;
-        for (const int joint : touched) {
-            columns.push_back(rows_of(log, joint, (tau.col(joint) - log.tau_rigid.col(joint)) / at_));
-        }
-        return columns;
-    }
-    std::pair<double, double> declared(double compliance, double deviation) const override {
-        return {1.0 / compliance, deviation / (compliance * compliance)};
-    }
-    candidate_pointer relinearised(const Eigen::VectorXd& found) const override {
-        return found[0] > 0.0 ? std::make_shared<soft_transmission>(model_, rigid_, joint_, found[0]) : nullptr;
-    }
-
-  private:
-    const idim_model_interface& model_;
-    Eigen::VectorXd rigid_;
-    int joint_;
-    double at_;
-};
-
 }  // namespace
 
 candidate_pointer delay_candidate(int joint, double at, double period) {
@@ -183,11 +76,6 @@ candidate_pointer alignment_candidate(int joints, double at) {
 
 candidate_pointer gain_candidate(int joint) {
     return std::make_shared<scaled_torque>(joint);
-}
-
-candidate_pointer elasticity_candidate(const idim_model_interface& model, const Eigen::VectorXd& chi, int joint,
-                                       double at) {
-    return std::make_shared<soft_transmission>(model, rigid_part(model, chi), joint, at);
 }
 
 }  // namespace idim

@@ -20,10 +20,10 @@ candidate_pointer alignment_candidate(int joints, double at);
 /// The torque of joint j scaled by 1 + Ke: the column is the present model's torque.
 candidate_pointer gain_candidate(int joint);
 
-/// A transmission of stiffness K = 1 / c at joint j: the link lags its motor by c times the torque that passes. The
-/// column is the secant in c of the rigid links' torques at all joints.
-candidate_pointer elasticity_candidate(const idim_model_interface& model, const Eigen::VectorXd& chi, int joint,
-                                       double at);
+/// A transmission of stiffness K and damping D at joint j: the link swings behind its motor, driven by the torque that
+/// it would have if it moved as the motor does. The only column, of coefficient one, is what that changes at all
+/// joints, to first order in the twist.
+candidate_pointer elasticity_candidate(int dof, int joint);
 
 /// Gravity turned about each axis that it is not along: the columns are the changes of the gravity torques per radian,
 /// from the models with gravity turned. Where the present parameters do not tell what gravity then shows (first moments

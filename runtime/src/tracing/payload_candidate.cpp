@@ -81,7 +81,7 @@ class part_time_load final : public effect_candidate {
         }
         least_outside = least_of_a_load;
         when_permanent = "a load that never comes off is part of the link; a log with it and one without would show it";
-        shape = {{"t0", "s", -1e9, 1e9}, {"t1", "s", -1e9, 1e9}};
+        shape = {{"t0", "s", -1e9, 1e9, true}, {"t1", "s", -1e9, 1e9, true}};
     }
 
     Eigen::MatrixXd rows(const traced_log& log, int joint, const Eigen::VectorXd& interval) const override {

@@ -165,7 +165,7 @@ effect_evidence search_shape(const trace_fit& fit, const candidate_pointer& cand
 
 effect_evidence refine_shape(const trace_fit& fit, const effect_term& start, double reach) {
     if (start.candidate->shape.size() != 1) {
-        return test_on_fitted(fit, start, false);
+        return test_on_fitted(fit, {start.candidate, start.candidate->shape_near(fit, start.shape)}, false);
     }
     const shape_bound& bound = start.candidate->shape.front();
     const double low = std::max(bound.low, start.shape[0] - reach);

@@ -39,8 +39,8 @@ Eigen::VectorXd torque_of(const trace_fit& fit, std::size_t term, std::size_t lo
 /// shape, of a row's time for the ends of an interval.
 Eigen::VectorXd derivative(const trace_fit& fit, std::size_t term, std::size_t log, int joint, Eigen::Index s) {
     const Eigen::VectorXd& shape = fit.terms()[term].shape;
-    const bool interval = shape.size() == 2;
-    const double step = interval ? 1.0 / fit.logs()[log].rows.rate : 1e-4 * std::max(std::abs(shape[s]), 1e-6);
+    const bool instant = fit.terms()[term].candidate->shape[static_cast<std::size_t>(s)].is_instant;
+    const double step = instant ? 1.0 / fit.logs()[log].rows.rate : 1e-4 * std::max(std::abs(shape[s]), 1e-6);
     Eigen::VectorXd above = shape;
     Eigen::VectorXd below = shape;
     above[s] += step;
@@ -61,7 +61,8 @@ observation weighted_rows(const trace_fit& fit, const shape_columns& places) {
         for (int j = 0; j < rows.dof; ++j) {
             const auto joint = static_cast<std::size_t>(j);
             Eigen::MatrixXd W = Eigen::MatrixXd::Zero(log.rows.Y[joint].size(), places.total);
-            W.leftCols(fit.all_coefficients().size()) = fit.columns(l, j);
+            W.leftCols(fit.all_coefficients().size()) =
+                fit.columns(l, j) * (1.0 - fit.known_coefficients().array()).matrix().asDiagonal();
             for (std::size_t i = 0; i < fit.terms().size(); ++i) {
                 const std::vector<int>& touched = fit.terms()[i].candidate->touched;
                 const bool touches = std::find(touched.begin(), touched.end(), j) != touched.end();

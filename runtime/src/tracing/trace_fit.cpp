@@ -29,6 +29,10 @@ Eigen::VectorXd weights_of(const traced_log& log, int joint, const row_noise& no
                            Eigen::ArrayXd::Constant(reversal.size(), 1.0 / noise.moving[joint]));
 }
 
+bool is_known(const effect_candidate& candidate) {
+    return candidate.linear.size() == 1 && candidate.linear.front().is_one;
+}
+
 Eigen::Index width(const effect_term& term, const std::vector<traced_log>& logs) {
     const auto m = static_cast<Eigen::Index>(term.candidate->linear.size());
     return term.candidate->per_log ? m * static_cast<Eigen::Index>(logs.size()) : m;
@@ -72,13 +76,23 @@ void trace_fit::build_columns() {
     }
 }
 
+Eigen::VectorXd trace_fit::known_coefficients() const {
+    Eigen::VectorXd known = Eigen::VectorXd::Zero(columns_.front().front().cols());
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+        known[first_[i]] = is_known(*terms_[i].candidate) ? 1.0 : 0.0;
+    }
+    return known;
+}
+
 void trace_fit::solve() {
     const Eigen::Index p = columns_.front().front().cols();
+    const Eigen::VectorXd known = known_coefficients();
+    const Eigen::VectorXd fitted = Eigen::VectorXd::Ones(p) - known;
     Eigen::MatrixXd triangle = Eigen::MatrixXd::Zero(0, p + 1);
     for (std::size_t l = 0; l < logs_->size(); ++l) {
         for (std::size_t j = 0; j < columns_[l].size() && !(*logs_)[l].held_back; ++j) {
             Eigen::MatrixXd A(columns_[l][j].rows(), p + 1);
-            A << columns_[l][j], (*logs_)[l].rows.Y[j];
+            A << columns_[l][j] * fitted.asDiagonal(), (*logs_)[l].rows.Y[j] - columns_[l][j] * known;
             triangle = folded(triangle, weight_[l][j].asDiagonal() * A);
         }
     }
@@ -92,7 +106,7 @@ void trace_fit::solve() {
     const Eigen::Index rank = (s.array() > excited * s[0]).count();
     basis_scale_ =
         norm.cwiseInverse().asDiagonal() * svd.matrixV().leftCols(rank) * s.head(rank).cwiseInverse().asDiagonal();
-    all_ = basis_scale_ * (svd.matrixU().leftCols(rank).transpose() * R.col(p));
+    all_ = basis_scale_ * (svd.matrixU().leftCols(rank).transpose() * R.col(p)) + known;
     basis_.resize(logs_->size());
     residual_.resize(logs_->size());
     for (std::size_t l = 0; l < logs_->size(); ++l) {
@@ -169,6 +183,12 @@ projected_columns trace_fit::project(const effect_candidate& candidate, const Ei
     const Eigen::VectorXd inverse = (found.scale.array() > 0.0).select(found.scale.cwiseInverse(), 0.0);
     const Eigen::MatrixXd outside =
         inverse.asDiagonal() * (gram - found.on_basis.transpose() * found.on_basis) * inverse.asDiagonal();
+    if (is_known(candidate)) {
+        found.rank = outside(0, 0) > candidate.least_outside * candidate.least_outside ? 1 : 0;
+        found.coefficient = Eigen::VectorXd::Ones(1);
+        found.gain = 2.0 * on_residual[0] - outside(0, 0) * found.scale[0] * found.scale[0];
+        return found;
+    }
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(outside);
     const Eigen::VectorXd g = eigen.eigenvectors().transpose() * (inverse.asDiagonal() * on_residual);
     Eigen::VectorXd along = Eigen::VectorXd::Zero(g.size());

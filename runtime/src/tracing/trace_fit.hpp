@@ -78,6 +78,8 @@ class trace_fit {
     const Eigen::MatrixXd& basis(std::size_t log, int joint) const {
         return basis_[log][static_cast<std::size_t>(joint)];
     }
+    /// 1 at the coefficients that are not fitted but known to be one, 0 elsewhere [p].
+    Eigen::VectorXd known_coefficients() const;
     /// All coefficients, those of the model first.
     const Eigen::VectorXd& all_coefficients() const { return all_; }
 

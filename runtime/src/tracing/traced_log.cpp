@@ -96,7 +96,18 @@ traced_log make_traced_log(const idim_model_interface& model, filtered_samples s
 
 void update_torques(const idim_model_interface& model, const Eigen::VectorXd& chi, traced_log& log) {
     log.tau_model = model_torques(model, log.samples, chi);
-    log.tau_rigid = model_torques(model, log.samples, rigid_part(model, chi));
+    const Eigen::VectorXd rigid = rigid_part(model, chi);
+    log.tau_rigid = model_torques(model, log.samples, rigid);
+    if (model.n_signals > model.dof) {
+        return;  // what effects read beside the motion does not follow from a link that moves otherwise
+    }
+    log.inertia.resize(log.samples.samples(), Eigen::Index{model.dof} * model.dof);
+    filtered_samples probe = log.samples;
+    for (Eigen::Index j = 0; j < model.dof; ++j) {
+        probe.qdd.col(j).array() += 1.0;
+        log.inertia.middleCols(j * model.dof, model.dof) = model_torques(model, probe, rigid) - log.tau_rigid;
+        probe.qdd.col(j) = log.samples.qdd.col(j);
+    }
 }
 
 Eigen::VectorXd rigid_part(const idim_model_interface& model, Eigen::VectorXd chi) {

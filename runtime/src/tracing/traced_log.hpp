@@ -21,6 +21,8 @@ struct traced_log {
     std::vector<row_flags> reversal;  ///< per joint, one flag a row
     Eigen::MatrixXd tau_model;        ///< torque of the present model at the full rate, samples x n [N*m or N]
     Eigen::MatrixXd tau_rigid;        ///< the part of the rigid links, what the transmissions carry
+    Eigen::MatrixXd inertia;          ///< M of the rigid links, samples x n*n: row i, column j at j*n + i; none where
+                                      ///< effects have signals of their own
 };
 
 /// Filters columns at the full rate (samples x m) as the torque is, and takes the rows that `joint` has.
@@ -31,7 +33,7 @@ traced_log make_traced_log(const idim_model_interface& model, filtered_samples s
                            bool held_back);
 
 /// Torques of the present parameters chi [b] along the log; a base parameter is of the rigid links if its name is one
-/// of XX..M of some link. Sets tau_model and tau_rigid.
+/// of XX..M of some link. Sets tau_model, tau_rigid and inertia.
 void update_torques(const idim_model_interface& model, const Eigen::VectorXd& chi, traced_log& log);
 /// The parameters of the rigid links, all others zero.
 Eigen::VectorXd rigid_part(const idim_model_interface& model, Eigen::VectorXd chi);
