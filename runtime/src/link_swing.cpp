@@ -48,6 +48,10 @@ struct mode {
     }
 };
 
+mode damped(const mode& given) {
+    return {std::max(given.damping, 2.0 * least_damping_ratio * std::sqrt(given.square)), given.square};
+}
+
 Eigen::VectorXd stiffnesses(const std::vector<soft_transmission>& soft) {
     Eigen::VectorXd K(static_cast<Eigen::Index>(soft.size()));
     std::transform(soft.begin(), soft.end(), K.begin(), [](const soft_transmission& t) { return t.stiffness; });
@@ -73,7 +77,7 @@ class swing_modes {
         for (Eigen::Index i = 0; i < K_.size(); ++i) {
             const double square = solver_.eigenvalues()[i];
             const double given = shapes_.col(i).dot(D_.cwiseProduct(shapes_.col(i)));
-            modes_.push_back({std::max(given, 2.0 * least_damping_ratio * std::sqrt(square)), square});
+            modes_.push_back(damped({given, square}));
         }
         return true;
     }
@@ -105,6 +109,31 @@ class swing_modes {
     std::vector<mode> modes_;
 };
 
+/// The same for one link, without matrices: a search tries many stiffnesses.
+twist_motion swing_of_one(const swing_dynamics& dynamics, const soft_transmission& soft, double rate) {
+    const Eigen::Index n = dynamics.forcing.rows();
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(n);
+    const auto F = dynamics.forcing.col(0);
+    const auto M = dynamics.inertia.col(0);
+    if (n < 2 || !(M.minCoeff() > 0.0)) {
+        return {none, none, none};
+    }
+    twist_motion found{none, none, none};
+    double angle = F[0] / soft.stiffness;
+    double speed = (F[1] - F[0]) * rate / soft.stiffness;
+    found.angle(0) = angle;
+    found.rate(0) = speed;
+    for (Eigen::Index k = 1; k < n; ++k) {
+        const double inertia = 0.5 * (M[k - 1] + M[k]);
+        const mode one = damped({soft.damping / inertia, soft.stiffness / inertia});
+        one.move(1.0 / rate, F[k - 1] / inertia, F[k] / inertia, angle, speed);
+        found.angle(k) = angle;
+        found.rate(k) = speed;
+        found.acceleration(k) = F[k] / inertia - one.damping * speed - one.square * angle;
+    }
+    return found;
+}
+
 swing_dynamics dynamics_of(const filtered_samples& link, const filtered_samples& motor,
                            const std::vector<soft_transmission>& soft, const links_torque& torque) {
     const auto s = static_cast<Eigen::Index>(soft.size());
@@ -127,6 +156,9 @@ swing_dynamics dynamics_of(const filtered_samples& link, const filtered_samples&
 }  // namespace
 
 twist_motion swing(const swing_dynamics& dynamics, const std::vector<soft_transmission>& soft, double rate) {
+    if (soft.size() == 1) {
+        return swing_of_one(dynamics, soft.front(), rate);
+    }
     const auto s = static_cast<Eigen::Index>(soft.size());
     const Eigen::Index n = dynamics.forcing.rows();
     const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(n, s);

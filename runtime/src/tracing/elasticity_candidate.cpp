@@ -4,11 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <vector>
 
-#include "idim/power_spectrum.hpp"
-#include "idim/zero_phase_filter.hpp"
 #include "link_swing.hpp"
 #include "model_candidates.hpp"
 #include "trace_fit.hpp"
@@ -16,51 +13,6 @@
 namespace idim {
 
 namespace {
-
-/// Central differences along the samples, one-sided at the ends.
-Eigen::VectorXd differentiated(const Eigen::Ref<const Eigen::VectorXd>& x, double rate) {
-    const Eigen::Index n = x.size();
-    Eigen::VectorXd d = Eigen::VectorXd::Zero(n);
-    if (n > 2) {
-        d.segment(1, n - 2) = (x.tail(n - 2) - x.head(n - 2)) * (0.5 * rate);
-        d[0] = d[1];
-        d[n - 1] = d[n - 2];
-    }
-    return d;
-}
-
-/// Where the second derivative of a signal sinks into its noise [Hz]: the lowest point of its spectrum, means over half
-/// octaves, above the band of the signal itself; none where the spectrum does not rise fourfold again.
-std::optional<double> noise_begins(const Eigen::VectorXd& signal, double rate) {
-    constexpr double visible_rise = 4.0;
-    const Eigen::Index segment = welch_segment(signal.size());
-    const power_spectrum second = welch_spectrum(differentiated(differentiated(signal, rate), rate), rate, segment);
-    const double step = std::exp2(0.25);
-    double lowest = std::numeric_limits<double>::infinity();
-    std::optional<double> valley;
-    for (double f = energy_frequency(welch_spectrum(signal, rate, segment), 0.99, 0.5 * rate); f * step < 0.4 * rate;
-         f *= step) {
-        const Eigen::ArrayXd near = (second.frequency > f / step && second.frequency < f * step).cast<double>();
-        const double level = near.sum() > 0.0 ? (near * second.density).sum() / near.sum() : lowest;
-        if (level < lowest) {
-            lowest = level;
-            valley = f;
-        } else if (level > visible_rise * lowest) {
-            return valley;
-        }
-    }
-    return std::nullopt;
-}
-
-/// The signal without what its second derivative shows of noise alone: a column made of noise would be fitted to the
-/// torque that the controller gives in answer to that noise.
-Eigen::VectorXd without_noise(const Eigen::VectorXd& signal, double rate) {
-    constexpr int order = 4;
-    constexpr Eigen::Index shortest = 64;  // samples, for a spectrum
-    const std::optional<double> cutoff = signal.size() < shortest ? std::nullopt : noise_begins(signal, rate);
-    return cutoff ? Eigen::VectorXd(zero_phase_filter(butterworth_lowpass(order, *cutoff / (0.5 * rate)), signal))
-                  : signal;
-}
 
 /// What makes the link of a joint swing behind its motor in one log.
 struct driven_link {
@@ -70,13 +22,42 @@ struct driven_link {
 
 driven_link link_of(const traced_log& log, int joint) {
     const Eigen::Index n = log.tau_rigid.cols();
-    return {&log, {without_noise(log.tau_rigid.col(joint), log.samples.rate), log.inertia.col(joint * n + joint)}};
+    return {&log, {log.tau_rigid.col(joint), log.inertia.col(joint * n + joint)}};
 }
 
 /// Acceleration of the twist along the log.
 Eigen::VectorXd twist_acceleration(const driven_link& link, int joint, const Eigen::VectorXd& shape) {
     return swing(link.dynamics, {{joint, shape[0], shape[1]}}, link.log->samples.rate).acceleration;
 }
+
+/// Rows of what the twist of one transmission takes from the torque of a joint.
+Eigen::VectorXd torque_of_twist(const traced_log& log, int twisted, int joint, const Eigen::VectorXd& acceleration) {
+    const Eigen::Index n = log.tau_rigid.cols();
+    return rows_of(log, joint, -log.inertia.col(twisted * n + joint).cwiseProduct(acceleration));
+}
+
+/// Those from the acceleration filtered once, with the inertia at the rows' own times: it changes slowly.
+class quick_twist {
+  public:
+    quick_twist(const traced_log& log, int twisted, const Eigen::VectorXd& acceleration)
+        : log_(log), twisted_(twisted), filtered_(decimate(acceleration, log.decimation)) {}
+
+    Eigen::VectorXd torque(int joint) const {
+        const Eigen::Index column = twisted_ * log_.tau_rigid.cols() + joint;
+        const std::vector<Eigen::Index>& kept = log_.rows.kept[static_cast<std::size_t>(joint)];
+        Eigen::VectorXd rows(static_cast<Eigen::Index>(kept.size()));
+        for (std::size_t k = 0; k < kept.size(); ++k) {
+            const Eigen::Index sample = std::min(kept[k] * log_.decimation, log_.inertia.rows() - 1);
+            rows[static_cast<Eigen::Index>(k)] = -log_.inertia(sample, column) * filtered_(kept[k]);
+        }
+        return rows;
+    }
+
+  private:
+    const traced_log& log_;
+    int twisted_;
+    Eigen::VectorXd filtered_;
+};
 
 /// How the loss of a fit falls with the stiffness and damping of one transmission.
 class swing_search {
@@ -143,20 +124,21 @@ class swing_search {
         return gain(shape(f, ratio)) > gain(start) ? shape(f, ratio) : start;
     }
 
-    /// Decrease of the loss by what the joint's own rows show.
+    /// Decrease of the loss.
     double gain(const Eigen::Vector2d& shape) const {
-        const auto j = static_cast<std::size_t>(joint_);
         Eigen::VectorXd on_basis = Eigen::VectorXd::Zero(fit_.parameters());
         double square = 0.0;
         double product = 0.0;
         for (std::size_t i = 0; i < links_.size(); ++i) {
-            const Eigen::VectorXd torque =
-                -links_[i].dynamics.inertia.cwiseProduct(twist_acceleration(links_[i], joint_, shape));
-            const Eigen::VectorXd& weight = fit_.weight()[places_[i]][j];
-            const Eigen::VectorXd X = weight.cwiseProduct(rows_of(*links_[i].log, joint_, torque));
-            on_basis += fit_.basis(places_[i], joint_).transpose() * X;
-            square += X.squaredNorm();
-            product += X.dot(weight.cwiseProduct(fit_.residual()[places_[i]][j]));
+            const quick_twist twist(*links_[i].log, joint_, twist_acceleration(links_[i], joint_, shape));
+            for (std::size_t j = 0; j < fit_.weight()[places_[i]].size(); ++j) {
+                const int joint = static_cast<int>(j);
+                const Eigen::VectorXd& weight = fit_.weight()[places_[i]][j];
+                const Eigen::VectorXd X = weight.cwiseProduct(twist.torque(joint));
+                on_basis += fit_.basis(places_[i], joint).transpose() * X;
+                square += X.squaredNorm();
+                product += X.dot(weight.cwiseProduct(fit_.residual()[places_[i]][j]));
+            }
         }
         return 2.0 * product - (square - on_basis.squaredNorm());
     }
@@ -194,13 +176,13 @@ class soft_joint final : public effect_candidate {
     }
 
     Eigen::MatrixXd rows(const traced_log& log, int joint, const Eigen::VectorXd& at) const override {
-        return column(log, joint, twist_acceleration(link_of(log, joint_), joint_, at));
+        return torque_of_twist(log, joint_, joint, twist_acceleration(link_of(log, joint_), joint_, at));
     }
     std::vector<Eigen::MatrixXd> touched_rows(const traced_log& log, const Eigen::VectorXd& at) const override {
         const Eigen::VectorXd acceleration = twist_acceleration(link_of(log, joint_), joint_, at);
         std::vector<Eigen::MatrixXd> columns;
         for (const int joint : touched) {
-            columns.push_back(column(log, joint, acceleration));
+            columns.emplace_back(torque_of_twist(log, joint_, joint, acceleration));
         }
         return columns;
     }
@@ -225,11 +207,6 @@ class soft_joint final : public effect_candidate {
     }
 
   private:
-    Eigen::MatrixXd column(const traced_log& log, int joint, const Eigen::VectorXd& acceleration) const {
-        const Eigen::Index n = log.tau_rigid.cols();
-        return rows_of(log, joint, -log.inertia.col(joint_ * n + joint).cwiseProduct(acceleration));
-    }
-
     int joint_;
 };
 
