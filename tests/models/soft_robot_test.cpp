@@ -90,6 +90,33 @@ TEST_F(SoftRobot, IsIdentifiedWithItsElasticityDeclaredAndNotWithout) {
     EXPECT_LT(distance(identified("soft.yaml")), 3.0);
 }
 
+TEST_F(SoftRobot, IsTracedFromALogThatDoesNotDeclareIt) {
+    ASSERT_EQ(simulate(soft_truth, "1500, D: 1.5").status, 0);
+    const command_result answer = run_idim({"diagnose", path("rigid.yaml"), path("log.csv"), "--cutoff", "60",
+                                            "--decimation", "5", "--json", path("traced.json")});
+    ASSERT_EQ(answer.status, 0) << answer.err;
+    const json best = json::parse(read_text(path("traced.json")))["candidates"][0];
+    EXPECT_EQ(best["effect"], "joint_elasticity");
+    EXPECT_EQ(best["joints"], json({"j2"}));
+    EXPECT_TRUE(best["objection"].is_null()) << best["objection"];
+    // The rigid model's inertia stands for the link's until the effect is in the model.
+    EXPECT_NEAR(best["values"][1].get<double>(), 1500.0, 75.0);
+    EXPECT_NEAR(best["values"][2].get<double>(), 1.5, 0.75);
+}
+
+TEST_F(SoftRobot, IsNotSeenInARigidOne) {
+    std::ofstream(path("truth.json")) << json(soft_truth);
+    ASSERT_EQ(run_idim({"simulate", path("rigid.yaml"), "--parameters", path("truth.json"), "--reference",
+                        path("reference.csv"), "-o", path("log.csv"), "--torque-noise", "0.01", "0.01",
+                        "--position-noise", "1e-7", "1e-7"})
+                  .status,
+              0);
+    const command_result answer = run_idim({"diagnose", path("rigid.yaml"), path("log.csv"), "--cutoff", "60",
+                                            "--decimation", "5", "--json", path("traced.json")});
+    ASSERT_EQ(answer.status, 0) << answer.err;
+    EXPECT_EQ(json::parse(read_text(path("traced.json")))["verdict"], "no_missing_effect");
+}
+
 TEST_F(SoftRobot, WithoutARotorIsRefusedBeforeAnythingIsWritten) {
     std::map<std::string, double> no_rotor = soft_truth;
     no_rotor["Ia2"] = 0.0;

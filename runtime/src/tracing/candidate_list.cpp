@@ -28,7 +28,7 @@ void add_at_joints(const trace_input& input, const idim_effect& effect, std::vec
             case IDIM_EFFECT_ELASTICITY:
                 // The motion of motors and states are signals of such a model, which a link's own motion does not give.
                 if (model.n_signals <= model.dof) {
-                    list.push_back(elasticity_candidate(model.dof, j));
+                    list.push_back(elasticity_candidate(model, j));
                 }
                 break;
             case IDIM_EFFECT_PAYLOAD:

@@ -96,8 +96,8 @@ traced_log make_traced_log(const idim_model_interface& model, filtered_samples s
 
 void update_torques(const idim_model_interface& model, const Eigen::VectorXd& chi, traced_log& log) {
     log.tau_model = model_torques(model, log.samples, chi);
-    const Eigen::VectorXd rigid = rigid_part(model, chi);
-    log.tau_rigid = model_torques(model, log.samples, rigid);
+    log.chi_rigid = rigid_part(model, chi);
+    log.tau_rigid = model_torques(model, log.samples, log.chi_rigid);
     if (model.n_signals > model.dof) {
         return;  // what effects read beside the motion does not follow from a link that moves otherwise
     }
@@ -105,7 +105,7 @@ void update_torques(const idim_model_interface& model, const Eigen::VectorXd& ch
     filtered_samples probe = log.samples;
     for (Eigen::Index j = 0; j < model.dof; ++j) {
         probe.qdd.col(j).array() += 1.0;
-        log.inertia.middleCols(j * model.dof, model.dof) = model_torques(model, probe, rigid) - log.tau_rigid;
+        log.inertia.middleCols(j * model.dof, model.dof) = model_torques(model, probe, log.chi_rigid) - log.tau_rigid;
         probe.qdd.col(j) = log.samples.qdd.col(j);
     }
 }

@@ -20,6 +20,7 @@ struct traced_log {
     bool held_back = false;           ///< never used to fit
     std::vector<row_flags> reversal;  ///< per joint, one flag a row
     Eigen::MatrixXd tau_model;        ///< torque of the present model at the full rate, samples x n [N*m or N]
+    Eigen::VectorXd chi_rigid;        ///< [b] the present parameters of the rigid links, all others zero
     Eigen::MatrixXd tau_rigid;        ///< the part of the rigid links, what the transmissions carry
     Eigen::MatrixXd inertia;          ///< M of the rigid links, samples x n*n: row i, column j at j*n + i; none where
                                       ///< effects have signals of their own
@@ -33,7 +34,7 @@ traced_log make_traced_log(const idim_model_interface& model, filtered_samples s
                            bool held_back);
 
 /// Torques of the present parameters chi [b] along the log; a base parameter is of the rigid links if its name is one
-/// of XX..M of some link. Sets tau_model, tau_rigid and inertia.
+/// of XX..M of some link. Sets tau_model, chi_rigid, tau_rigid and inertia.
 void update_torques(const idim_model_interface& model, const Eigen::VectorXd& chi, traced_log& log);
 /// The parameters of the rigid links, all others zero.
 Eigen::VectorXd rigid_part(const idim_model_interface& model, Eigen::VectorXd chi);
