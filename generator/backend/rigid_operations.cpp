@@ -11,6 +11,7 @@ operation_count rigid_operations(const expression_graph& model, const std::vecto
                !is_of_link[static_cast<std::size_t>(model.symbols()[static_cast<std::size_t>(node.symbol)].index)];
     };
     expression_graph links;
+    links.reserve(model.nodes().size());
     graph_copy copy(model, links);
     const std::vector<bool> live = model.live();
     for (std::size_t id = 0; id < live.size(); ++id) {
