@@ -230,7 +230,7 @@ model_function derive_regrouping(const robot_model& model) {
     }
     const function_plan plan{
         "regroup", "Base parameters of a robot whose standard parameters are known.", {"standard"}, {"chi"}, {}, {}};
-    return {plan.name, plan.summary, arguments(plan, model), graph};
+    return {plan.name, plan.summary, arguments(plan, model), std::move(graph)};
 }
 
 std::vector<joint_context> joints(const robot_model& model) {
