@@ -79,7 +79,8 @@ std::vector<std::vector<ex>> inertia_elements(model_frame& frame, const standard
         const ex effects =
             parameters.without_elasticity(tree, effect_torque(parameters, frame.values, static_cast<int>(i)));
         for (std::size_t j = 0; j <= i; ++j) {
-            const ex inertia = M[i][j] + effects.diff(tree.qdd[j]);
+            const GiNaC::symbol& qdd = tree.qdd[j];  // GiNaC derives term by term also where there is none
+            const ex inertia = effects.has(qdd) ? M[i][j] + effects.diff(qdd) : M[i][j];
             M[i][j] = frame.model.assign(fmt::format("M{}_{}", i + 1, j + 1), inertia);
         }
     }

@@ -48,7 +48,7 @@ HoldWhatTheSourcesHave() {
 SayWhatTheyNeed() {
     local needed
     needed=$(dpkg-deb -f "$command" Depends)
-    for library in libc6 libginac libcln libyaml-cpp libmd; do
+    for library in libc6 libyaml-cpp libmd liburdfdom; do
         grep -q "\b$library" <<<"$needed" || fail "$library is missing in: $needed"
     done
     same "Depends of libidim-dev" "idim (= $VERSION), libeigen3-dev, libfmt-dev, zlib1g-dev, libmd-dev, libnlopt-dev" \
