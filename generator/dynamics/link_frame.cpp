@@ -92,8 +92,7 @@ symmetric3 turn_about_z(symbolic_model& model, const std::string& name, const an
 }
 
 vector3 cross(const vector3& a, const vector3& b) {
-    return {difference(a[1], b[2], a[2], b[1]), difference(a[2], b[0], a[0], b[2]),
-            difference(a[0], b[1], a[1], b[0])};
+    return {difference(a[1], b[2], a[2], b[1]), difference(a[2], b[0], a[0], b[2]), difference(a[0], b[1], a[1], b[0])};
 }
 
 ex dot(const vector3& a, const vector3& b) {
