@@ -107,15 +107,15 @@ generated_model generate(const std::string& robot_file, const std::string& templ
     result.cost = options.cost;
     result.input_hash = hash_inputs(model, options);
     const cost_target target = cost_target_of(options.cost);
-    model_operations counts;
+    operation_counts counts;
     const template_context context = build_context(model, {version(), result.input_hash, target}, options.derivatives,
                                                    languages_of(options.target), counts);
     result.joints = context.joints;
-    result.operations = table(counts);
+    result.operations = table(counts.declared);
+    result.rigid_operations = table(counts.rigid);
     result.files = render(context, templates + "/" + options.target);
     result.files.push_back(manifest_of(model, context, result));
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    result.rigid_operations = model.description.effects.empty() ? result.operations : table(count_rigid(model, target));
     return result;
 }
 

@@ -28,7 +28,8 @@ class body_printer {
           names_(names),
           live_(graph.live()),
           uses_(graph.nodes().size(), 0),
-          used_(spelling.reserved()) {
+          used_(spelling.reserved()),
+          variable_(graph.nodes().size()) {
         used_.insert(reserved.begin(), reserved.end());
         count_uses();
     }
@@ -92,14 +93,14 @@ class body_printer {
             return;
         }
         const std::string element = leaf(node).text;
-        variable_[id] = unique(graph_.symbols()[static_cast<std::size_t>(node.symbol)].name);
-        emit(spelling_.alias(variable_[id], element));
+        variable_[static_cast<std::size_t>(id)] = unique(graph_.symbols()[static_cast<std::size_t>(node.symbol)].name);
+        emit(spelling_.alias(variable_of(id), element));
     }
 
     /// Gives every shared, unnamed node below `id` a variable before the line that needs it.
     void declare_shared(int id) {
         const graph_node& node = graph_.nodes()[static_cast<std::size_t>(id)];
-        if (is_leaf(node) || variable_.count(id) != 0) {
+        if (is_leaf(node) || !variable_of(id).empty()) {
             return;
         }
         declare_operands(node);
@@ -124,7 +125,7 @@ class body_printer {
         const std::string text = expression(node).text;
         const std::string name = unique(wanted);
         emit(spelling_.definition(name, text));
-        variable_[id] = name;
+        variable_[static_cast<std::size_t>(id)] = name;
     }
 
     printed_value leaf(const graph_node& node) const {
@@ -137,10 +138,11 @@ class body_printer {
         return {is_scalar ? argument : spelling_.element(names_, argument, symbol.index)};
     }
 
+    const std::string& variable_of(int id) const { return variable_[static_cast<std::size_t>(id)]; }
+
     printed_value operand(int id) const {
-        const auto variable = variable_.find(id);
-        if (variable != variable_.end()) {
-            return {variable->second};
+        if (!variable_of(id).empty()) {
+            return {variable_of(id)};
         }
         const graph_node& node = graph_.nodes()[static_cast<std::size_t>(id)];
         return is_leaf(node) ? leaf(node) : expression(node);
@@ -179,8 +181,7 @@ class body_printer {
     }
 
     /// Breaks long statements at blanks, which only stand around operators.
-    void emit(const std::string& statement) {
-        std::string rest = statement;
+    void emit(std::string rest) {
         std::string text;
         while (rest.size() > line_width) {
             const std::size_t at = rest.rfind(' ', line_width);
@@ -190,7 +191,7 @@ class body_printer {
             text += rest.substr(0, at) + "\n        ";
             rest = "    " + rest.substr(at + 1);
         }
-        lines_.push_back(text + rest);
+        lines_.push_back(text.empty() ? std::move(rest) : text + rest);
     }
 
     const expression_graph& graph_;
@@ -199,7 +200,7 @@ class body_printer {
     std::vector<bool> live_;
     std::vector<int> uses_;
     std::set<std::string> used_;
-    std::map<int, std::string> variable_;
+    std::vector<std::string> variable_;  ///< by id of the node, empty where it has none
     std::map<std::string, int> temporaries_;
     std::string owner_;
     std::vector<std::string> lines_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "backend/body_printer.hpp"
 #include "graph/shared_sines.hpp"
@@ -76,14 +77,14 @@ class speller {
         }
     }
 
-    function_context model(const model_function& plain, std::size_t number, const languages& spellings) const {
+    function_context model(const model_function& plain, std::size_t number, const languages& spellings) {
         const std::set<int> places = sines_read(given_[number]);
         if (places.empty()) {
             return described(plain, plain.arguments, spellings,
                              [&](const language& spelling) { return std::vector{routine(plain, spelling)}; });
         }
         const model_function given{plain.name + "_sc", plain.summary + " Cosines and sines are given.",
-                                   with_sines(plain.arguments), given_[number]};
+                                   with_sines(plain.arguments), std::move(given_[number])};
         return described(plain, given.arguments, spellings, [&](const language& spelling) {
             return std::vector{routine(given, spelling), wrapper(plain, given, places, spelling)};
         });
@@ -157,14 +158,14 @@ class speller {
     element_names names_;
     std::set<std::string> reserved_;
     shared_sines sines_;
-    std::vector<expression_graph> given_;  ///< per model, with sines as leaves
+    std::vector<expression_graph> given_;  ///< per model that is not spelled yet, with sines as leaves
 };
 
 }  // namespace
 
 spelled_models spell(const std::vector<model_function>& models, const element_names& names,
                      const languages& spellings) {
-    const speller all(models, names);
+    speller all(models, names);
     spelled_models result;
     for (std::size_t i = 0; i < models.size(); ++i) {
         result.functions.push_back(all.model(models[i], i, spellings));

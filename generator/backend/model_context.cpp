@@ -11,6 +11,7 @@
 
 #include "backend/form_choice.hpp"
 #include "backend/function_spelling.hpp"
+#include "backend/rigid_operations.hpp"
 #include "dynamics/dynamic_models.hpp"
 #include "graph/derivatives.hpp"
 #include "graph/sum_rewriting.hpp"
@@ -229,7 +230,7 @@ model_function derive_regrouping(const robot_model& model) {
     }
     const function_plan plan{
         "regroup", "Base parameters of a robot whose standard parameters are known.", {"standard"}, {"chi"}, {}, {}};
-    return {plan.name, plan.summary, arguments(plan, model), graph};
+    return {plan.name, plan.summary, arguments(plan, model), std::move(graph)};
 }
 
 std::vector<joint_context> joints(const robot_model& model) {
@@ -288,6 +289,25 @@ void set_effects(const robot_model& model, template_context& context) {
     }
 }
 
+/// Counts for the links alone.
+model_operations count_rigid(const robot_model& model, const std::vector<model_function>& functions,
+                             cost_target target) {
+    const std::vector<std::size_t> kept = model.base.selection().kept;
+    const std::vector<std::size_t>& rigid = model.base.rigid.kept;
+    std::vector<bool> is_of_link;
+    for (const std::size_t p : kept) {
+        is_of_link.push_back(std::binary_search(rigid.begin(), rigid.end(), p));
+    }
+    const std::vector<function_plan> all = plans();
+    const auto count = [&](std::size_t i) {
+        // Where an effect takes the place of a link's parameter, its model is not one of the links alone.
+        return std::includes(kept.begin(), kept.end(), rigid.begin(), rigid.end())
+                   ? rigid_operations(functions[i].graph, is_of_link)
+                   : count_operations(cheapest(all[i], model, model.base.rigid, target));
+    };
+    return {count(1), count(0), count(2), count(5)};
+}
+
 element_names names_of(const template_context& context) {
     element_names names{context.robot, {}, {}};
     for (const parameter_context& parameter : context.base_parameters) {
@@ -316,7 +336,7 @@ std::vector<std::pair<std::string, double>> named_constants(const robot_model& m
 }
 
 template_context build_context(const robot_model& model, const file_origin& origin, bool derivatives,
-                               const languages& spellings, model_operations& operations) {
+                               const languages& spellings, operation_counts& operations) {
     template_context context;
     context.robot = model.description.name;
     context.version = origin.version;
@@ -350,18 +370,10 @@ template_context build_context(const robot_model& model, const file_origin& orig
     spelled_models spelled = spell(functions, names_of(context), spellings);
     context.functions = std::move(spelled.functions);
     context.sines = spelled.sines;
-    operations = {context.functions[1].operations, context.functions[0].operations, context.functions[2].operations,
-                  context.functions[5].operations};
+    operations.declared = {context.functions[1].operations, context.functions[0].operations,
+                           context.functions[2].operations, context.functions[5].operations};
+    operations.rigid = count_rigid(model, functions, origin.cost);
     return context;
-}
-
-model_operations count_rigid(const robot_model& model, cost_target target) {
-    const std::vector<function_plan> all = plans();
-    const auto count = [&](const char* name) {
-        const auto plan = std::find_if(all.begin(), all.end(), [name](const auto& p) { return p.name == name; });
-        return count_operations(cheapest(*plan, model, model.base.rigid, target));
-    };
-    return {count("inverse_dynamics"), count("regressor"), count("mass_matrix"), count("forward_dynamics")};
 }
 
 }  // namespace idim::generator

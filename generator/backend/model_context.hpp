@@ -16,6 +16,11 @@ struct model_operations {
     operation_count inverse_dynamics, regressor, mass_matrix, forward_dynamics;
 };
 
+/// Those of the robot as declared, and without its effects.
+struct operation_counts {
+    model_operations declared, rigid;
+};
+
 /// Everything derived for one robot.
 struct robot_model {
     robot_description description;
@@ -37,9 +42,6 @@ struct file_origin {
 /// Derives all models of a robot, with `derivatives` also those of its inverse dynamics, and spells them for the
 /// templates. `operations` receives the counts.
 template_context build_context(const robot_model& model, const file_origin& origin, bool derivatives,
-                               const languages& spellings, model_operations& operations);
-
-/// Counts for the same robot without its effects.
-model_operations count_rigid(const robot_model& model, cost_target target);
+                               const languages& spellings, operation_counts& operations);
 
 }  // namespace idim::generator

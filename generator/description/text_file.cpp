@@ -1,6 +1,7 @@
 #include "description/text_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
@@ -28,6 +29,17 @@ void refuse_control_characters(const std::string& text, const std::string& file)
     }
 }
 
+/// Piece by piece: memory for the largest file that there may be would be cleared for every small one.
+std::string read_at_most(std::istream& stream, std::size_t most) {
+    std::array<char, 16384> piece{};
+    std::string text;
+    while (stream && text.size() < most) {
+        stream.read(piece.data(), static_cast<std::streamsize>(std::min(piece.size(), most - text.size())));
+        text.append(piece.data(), static_cast<std::size_t>(stream.gcount()));
+    }
+    return text;
+}
+
 }  // namespace
 
 std::string read_text_file(const std::string& file, std::size_t largest) {
@@ -41,9 +53,7 @@ std::string read_text_file(const std::string& file, std::size_t largest) {
     if (!stream) {
         throw input_error(whole_file, "cannot be read: " + std::generic_category().message(errno));
     }
-    std::string text(largest + 1, '\0');
-    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(stream.gcount()));
+    const std::string text = read_at_most(stream, largest + 1);
     if (text.size() > largest) {
         throw input_error(whole_file, "is larger than " + std::to_string(largest / megabyte) + " MB");
     }

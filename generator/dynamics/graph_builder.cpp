@@ -15,17 +15,40 @@ namespace {
 
 using GiNaC::ex;
 
-/// An expression with the text it is sorted by. The text is built from declared symbol indices and sorted operands, so
-/// it is the same whatever order GiNaC holds the operands in.
+/// What stands at the root of an expression.
+enum class shape { symbol, product, sum, number, power, function, pi };
+
+/// GiNaC's own tests of a type compare names; what describes a class stands at one address.
+shape shape_of(const ex& e) {
+    const GiNaC::registered_class_info* const found = &GiNaC::ex_to<GiNaC::basic>(e).get_class_info();
+    const std::pair<const GiNaC::registered_class_info*, shape> known[] = {
+        {&GiNaC::symbol::get_class_info_static(), shape::symbol},
+        {&GiNaC::mul::get_class_info_static(), shape::product},
+        {&GiNaC::numeric::get_class_info_static(), shape::number},
+        {&GiNaC::add::get_class_info_static(), shape::sum},
+        {&GiNaC::power::get_class_info_static(), shape::power},
+        {&GiNaC::function::get_class_info_static(), shape::function},
+        {&GiNaC::constant::get_class_info_static(), shape::pi},
+    };
+    for (const auto& [info, what] : known) {
+        if (info == found) {
+            return what;
+        }
+    }
+    throw std::logic_error("unexpected expression in a model");
+}
+
+/// An expression with its operands in order. As an operand it has the text that it is sorted by, which is built from
+/// declared symbol indices and sorted operands, so that it is the same whatever order GiNaC holds the operands in.
 struct ordered {
     ex value;
+    shape root;
     std::string key;
-    std::vector<ordered> operands;  ///< of a sum or product, sorted
-    signed_node node;               ///< of a symbol
+    std::vector<ordered> operands;  ///< of a sum, product or function; a function's as they are
 };
 
 rational to_rational(const ex& number) {
-    const auto value = GiNaC::ex_to<GiNaC::numeric>(number);
+    const auto& value = GiNaC::ex_to<GiNaC::numeric>(number);
     if (!value.is_rational()) {
         throw std::logic_error("a number in a model is not rational");
     }
@@ -71,66 +94,74 @@ class graph_builder {
     }
 
     ordered in_order(const ex& e) const {
-        ordered result{e, {}, {}, {}};
-        if (GiNaC::is_exactly_a<GiNaC::symbol>(e)) {
-            const known_symbol& symbol = symbols_.at(e);
-            result.key = symbol.key;
-            result.node = symbol.value;
-        } else if (GiNaC::is_exactly_a<GiNaC::numeric>(e)) {
-            result.key = "~" + to_fraction(to_rational(e));
-        } else if (GiNaC::is_exactly_a<GiNaC::constant>(e)) {
-            result.key = "~pi";
-        } else if (GiNaC::is_exactly_a<GiNaC::power>(e)) {
-            result.key = in_order(e.op(0)).key + "^" + in_order(e.op(1)).key;
-        } else if (GiNaC::is_exactly_a<GiNaC::mul>(e)) {
-            sort_operands(result, "*");
-        } else if (GiNaC::is_exactly_a<GiNaC::add>(e)) {
-            result.key = "a";
-            sort_operands(result, ",");
-            result.key += ")";
-        } else if (GiNaC::is_exactly_a<GiNaC::function>(e)) {
-            result.key = "f" + std::string(to_string(kind_of(e)));
-            sort_operands(result, ",");
-            result.key += ")";
-        } else {
-            throw std::logic_error("unexpected expression in a model");
+        ordered result{e, shape_of(e), {}, {}};
+        if (result.root == shape::product || result.root == shape::sum || result.root == shape::function) {
+            result.operands.reserve(e.nops());
+            for (const ex& operand : e) {
+                result.operands.push_back(with_key(operand));
+            }
+            std::sort(result.operands.begin(), result.operands.end(),
+                      [](const ordered& a, const ordered& b) { return a.key < b.key; });
         }
         return result;
     }
 
-    void sort_operands(ordered& of, const char* separator) const {
-        of.operands.reserve(of.value.nops());
-        for (const ex& operand : of.value) {
-            of.operands.push_back(in_order(operand));
+    ordered with_key(const ex& e) const {
+        ordered result = in_order(e);
+        result.key = key_of(result);
+        return result;
+    }
+
+    std::string key_of(const ordered& term) const {
+        switch (term.root) {
+            case shape::symbol:
+                return symbols_.at(term.value).key;
+            case shape::number:
+                return "~" + to_fraction(to_rational(term.value));
+            case shape::pi:
+                return "~pi";
+            case shape::power:
+                return with_key(term.value.op(0)).key + "^" + with_key(term.value.op(1)).key;
+            case shape::product:
+                return joined_keys(term.operands, "*");
+            case shape::sum:
+                return "a" + joined_keys(term.operands, ",") + ")";
+            case shape::function:
+                break;
         }
-        std::stable_sort(of.operands.begin(), of.operands.end(),
-                         [](const ordered& a, const ordered& b) { return a.key < b.key; });
-        for (const ordered& operand : of.operands) {
-            of.key.append(operand.key).append(separator);
+        return "f" + std::string(to_string(kind_of(term.value))) + joined_keys(term.operands, ",") + ")";
+    }
+
+    static std::string joined_keys(const std::vector<ordered>& operands, const char* separator) {
+        std::string keys;
+        for (const ordered& operand : operands) {
+            keys.append(operand.key).append(separator);
         }
+        return keys;
     }
 
     signed_node build(const ex& e) { return build(in_order(e)); }
 
     signed_node build(const ordered& term) {
         const ex& e = term.value;
-        if (GiNaC::is_exactly_a<GiNaC::symbol>(e)) {
-            return term.node;
+        switch (term.root) {
+            case shape::symbol:
+                return symbols_.at(e).value;
+            case shape::number:
+                return graph_.constant(to_rational(e));
+            case shape::pi:
+                return graph_.constant(to_rational(constant_value(e, {})));
+            case shape::power:
+                return build_power(e.op(0), e.op(1));
+            case shape::sum:
+                return build_sum(term);
+            case shape::product:
+                return build_product(term);
+            case shape::function:
+                break;
         }
-        if (GiNaC::is_exactly_a<GiNaC::numeric>(e)) {
-            return graph_.constant(to_rational(e));
-        }
-        if (GiNaC::is_exactly_a<GiNaC::constant>(e)) {
-            return graph_.constant(to_rational(constant_value(e, {})));
-        }
-        if (GiNaC::is_exactly_a<GiNaC::power>(e)) {
-            return build_power(e.op(0), e.op(1));
-        }
-        if (GiNaC::is_exactly_a<GiNaC::function>(e)) {
-            const signed_node argument = build(e.op(0).expand());
-            return graph_.function(kind_of(e), argument);
-        }
-        return GiNaC::is_exactly_a<GiNaC::add>(e) ? build_sum(term) : build_product(term);
+        const signed_node argument = build(e.op(0).expand());
+        return graph_.function(kind_of(e), argument);
     }
 
     signed_node build_sum(const ordered& sum_of) {
@@ -147,7 +178,7 @@ class graph_builder {
         signed_node product = one;
         signed_node divisor = one;
         for (const ordered& operand : product_of.operands) {
-            if (is_reciprocal(operand.value)) {
+            if (is_reciprocal(operand)) {
                 const signed_node factor = build_power(operand.value.op(0), -operand.value.op(1));
                 divisor = graph_.multiply(divisor, factor);
             } else {
@@ -158,9 +189,9 @@ class graph_builder {
         return divisor == one ? product : graph_.divide(product, divisor);
     }
 
-    static bool is_reciprocal(const ex& e) {
-        return GiNaC::is_a<GiNaC::power>(e) && GiNaC::is_a<GiNaC::numeric>(e.op(1)) &&
-               GiNaC::ex_to<GiNaC::numeric>(e.op(1)).is_negative();
+    static bool is_reciprocal(const ordered& factor) {
+        return factor.root == shape::power && shape_of(factor.value.op(1)) == shape::number &&
+               GiNaC::ex_to<GiNaC::numeric>(factor.value.op(1)).is_negative();
     }
 
     signed_node build_power(const ex& base, const ex& exponent) {

@@ -12,6 +12,18 @@ angle_pair inverse(const angle_pair& angle) {
     return {angle.cos, -angle.sin};
 }
 
+// Vectors of sparse frames are full of zeros, which GiNaC finds only after it has built the product or sum.
+ex product(const ex& a, const ex& b) {
+    return a.is_zero() || b.is_zero() ? ex(0) : a * b;
+}
+ex sum(const ex& a, const ex& b) {
+    return a.is_zero() ? b : b.is_zero() ? a : a + b;
+}
+/// a b - c d
+ex difference(const ex& a, const ex& b, const ex& c, const ex& d) {
+    return c.is_zero() || d.is_zero() ? product(a, b) : sum(product(a, b), -c * d);
+}
+
 /// v turned by the angle about axis 0 (x) or 2 (z); named unless it is a mere exchange of components.
 vector3 turn(symbolic_model& model, const std::string& name, const angle_pair& angle, int axis, const vector3& v) {
     if (is_identity(angle)) {
@@ -20,8 +32,8 @@ vector3 turn(symbolic_model& model, const std::string& name, const angle_pair& a
     const std::size_t a = axis == 0 ? 1 : 0;
     const std::size_t b = axis == 0 ? 2 : 1;
     vector3 result = v;
-    result[a] = (angle.cos * v[a] - angle.sin * v[b]).expand();
-    result[b] = (angle.sin * v[a] + angle.cos * v[b]).expand();
+    result[a] = difference(angle.cos, v[a], angle.sin, v[b]).expand();
+    result[b] = sum(product(angle.sin, v[a]), product(angle.cos, v[b])).expand();
     if (!is_quarter(angle)) {
         result[a] = model.assign(fmt::format("{}_{}", name, a + 1), result[a]);
         result[b] = model.assign(fmt::format("{}_{}", name, b + 1), result[b]);
@@ -80,15 +92,15 @@ symmetric3 turn_about_z(symbolic_model& model, const std::string& name, const an
 }
 
 vector3 cross(const vector3& a, const vector3& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    return {difference(a[1], b[2], a[2], b[1]), difference(a[2], b[0], a[0], b[2]), difference(a[0], b[1], a[1], b[0])};
 }
 
 ex dot(const vector3& a, const vector3& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    return sum(sum(product(a[0], b[0]), product(a[1], b[1])), product(a[2], b[2]));
 }
 
 vector3 add(const vector3& a, const vector3& b) {
-    return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+    return {sum(a[0], b[0]), sum(a[1], b[1]), sum(a[2], b[2])};
 }
 
 bool is_zero(const vector3& a) {

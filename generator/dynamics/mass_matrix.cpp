@@ -64,13 +64,6 @@ void add_joint_inertia(model_frame& frame, std::size_t accelerated, std::vector<
     }
 }
 
-/// Contribution of the effects to d tau_i / d qdd_j.
-ex effect_inertia(const kinematic_tree& tree, const standard_parameters& parameters, const parameter_values& values,
-                  int i, int j) {
-    const ex torque = parameters.without_elasticity(tree, effect_torque(parameters, values, i));
-    return torque.diff(tree.qdd[static_cast<std::size_t>(j)]);
-}
-
 }  // namespace
 
 std::vector<std::vector<ex>> inertia_elements(model_frame& frame, const standard_parameters& parameters) {
@@ -83,9 +76,12 @@ std::vector<std::vector<ex>> inertia_elements(model_frame& frame, const standard
         }
     }
     for (std::size_t i = 0; i < n; ++i) {
+        const ex effects =
+            parameters.without_elasticity(tree, effect_torque(parameters, frame.values, static_cast<int>(i)));
         for (std::size_t j = 0; j <= i; ++j) {
-            const ex effects = effect_inertia(tree, parameters, frame.values, static_cast<int>(i), static_cast<int>(j));
-            M[i][j] = frame.model.assign(fmt::format("M{}_{}", i + 1, j + 1), M[i][j] + effects);
+            const GiNaC::symbol& qdd = tree.qdd[j];  // GiNaC derives term by term also where there is none
+            const ex inertia = effects.has(qdd) ? M[i][j] + effects.diff(qdd) : M[i][j];
+            M[i][j] = frame.model.assign(fmt::format("M{}_{}", i + 1, j + 1), inertia);
         }
     }
     return M;

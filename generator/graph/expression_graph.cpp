@@ -62,7 +62,7 @@ signed_node expression_graph::constant(const rational& value) {
         graph_node node;
         node.kind = operation::constant;
         node.value = magnitude;
-        nodes_.push_back(node);
+        nodes_.push_back(std::move(node));
     }
     return {at->second, negative};
 }
@@ -76,7 +76,7 @@ signed_node expression_graph::symbol(const graph_symbol& leaf) {
         node.role = leaf.role;
         node.name = leaf.name;
         symbols_.push_back(leaf);
-        nodes_.push_back(node);
+        nodes_.push_back(std::move(node));
     }
     return {at->second, false};
 }
@@ -96,7 +96,7 @@ signed_node expression_graph::intern(operation kind, function_kind function, sig
         node.a = a;
         node.b = b;
         node.role = std::max((*this)[a].role, (*this)[b].role);
-        nodes_.push_back(node);
+        nodes_.push_back(std::move(node));
     }
     return {at->second, false};
 }

@@ -3,16 +3,15 @@
 namespace idim::generator {
 
 signed_node graph_copy::of(signed_node value) {
-    auto found = known_.find(value.id);
-    if (found == known_.end()) {
+    std::optional<signed_node>& known = known_[static_cast<std::size_t>(value.id)];
+    if (!known) {
         const graph_node& node = from_[value];
-        const signed_node copy = build(node);
-        if (!node.name.empty() && !copy.negative) {
-            to_.name(copy, node.name);
+        known = build(node);
+        if (!node.name.empty() && !known->negative) {
+            to_.name(*known, node.name);
         }
-        found = known_.emplace(value.id, copy).first;
     }
-    return value.negative ? -found->second : found->second;
+    return value.negative ? -*known : *known;
 }
 
 signed_node graph_copy::build(const graph_node& node) {

@@ -46,6 +46,7 @@ graph_symbol shared_sines::leaf(const expression_graph& model, signed_node funct
 
 expression_graph shared_sines::taken_from(const expression_graph& model) {
     expression_graph result;
+    result.reserve(model.nodes().size());
     graph_copy copy(model, result);
     const std::vector<bool> live = model.live();
     const std::vector<bool> known = known_from_positions(model);

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <cstdio>
 #include <exception>
@@ -37,6 +38,8 @@ int run(const idim::cli::action& chosen) {
 
 int main(int argc, char** argv) {
     using namespace idim::cli;
+    // Memory from the system in few pieces: models are many small objects that come and go.
+    mallopt(M_TOP_PAD, 4 << 20);
     CLI::App app("idim " IDIM_VERSION ": symbolic robot models, generated code, identification", "idim");
     app.set_version_flag("--version", IDIM_VERSION);
     app.require_subcommand(1);

@@ -73,7 +73,7 @@ CMake function idim_generate.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libidim-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-    "idim (= ${PROJECT_VERSION}), libeigen3-dev, libfmt-dev, zlib1g-dev, libssl-dev, libnlopt-dev")
+    "idim (= ${PROJECT_VERSION}), libeigen3-dev, libfmt-dev, zlib1g-dev, libmd-dev, libnlopt-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "identification of robots, for programs with generated models
 Headers and static library of the runtime of idim: logs, filters, estimators,
 simulation.")

@@ -48,10 +48,10 @@ HoldWhatTheSourcesHave() {
 SayWhatTheyNeed() {
     local needed
     needed=$(dpkg-deb -f "$command" Depends)
-    for library in libc6 libginac libcln libyaml-cpp libssl; do
+    for library in libc6 libyaml-cpp libmd liburdfdom; do
         grep -q "\b$library" <<<"$needed" || fail "$library is missing in: $needed"
     done
-    same "Depends of libidim-dev" "idim (= $VERSION), libeigen3-dev, libfmt-dev, zlib1g-dev, libssl-dev, libnlopt-dev" \
+    same "Depends of libidim-dev" "idim (= $VERSION), libeigen3-dev, libfmt-dev, zlib1g-dev, libmd-dev, libnlopt-dev" \
         "$(dpkg-deb -f "$development" Depends)"
     [ "$(dpkg-deb -f "$command" Installed-Size)" -lt 10000 ] || fail "idim takes more than 10 MB"
 }

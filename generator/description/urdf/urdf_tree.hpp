@@ -40,6 +40,8 @@ struct urdf_joint {
     std::optional<double> damping;   ///< [N*m*s/rad or N*s/m]
     std::optional<double> friction;  ///< [N*m or N]
     std::optional<urdf_mimic> mimic;
+
+    bool has_one_axis() const { return type == urdf_joint_type::revolute || type == urdf_joint_type::prismatic; }
 };
 
 /// What a URDF file says of links and joints: every joint has its two links, every link but the root its one joint.
