@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "idim/log_parameters.hpp"
 #include "idim/recorded_states.hpp"
@@ -46,29 +48,64 @@ Eigen::VectorXd column_norms(const observation& rows) {
     return squares.cwiseSqrt();
 }
 
-/// The part of each step that is taken: Aitken's relaxation of vectors (Irons and Tuck 1969), from the last two steps.
-class relaxation {
+/// Steps towards the fixed point of a map that full steps may lead away from: Anderson mixing (Walker and Ni 2011) of
+/// the last few steps, each column of which counts by its size.
+class mixed_steps {
   public:
-    explicit relaxation(double first) : share_(first) {}
+    explicit mixed_steps(Eigen::VectorXd size) : size_(std::move(size)) {}
 
-    double operator()(const Eigen::VectorXd& step) {
-        constexpr double least = 0.1;
-        if (last_.size() > 0 && (step - last_).squaredNorm() > 0.0) {
-            const Eigen::VectorXd change = step - last_;
-            share_ = std::clamp(-share_ * last_.dot(change) / change.squaredNorm(), least, 1.0);
+    /// The step to take from `at`, where the map leads `full` further.
+    Eigen::VectorXd operator()(const Eigen::VectorXd& at, const Eigen::VectorXd& full) {
+        if (last_at_.size() > 0) {
+            moves_.push_back(at - last_at_);
+            changes_.push_back(full - last_full_);
         }
-        last_ = step;
-        return share_;
+        if (moves_.size() > depth) {
+            moves_.erase(moves_.begin());
+            changes_.erase(changes_.begin());
+        }
+        last_at_ = at;
+        last_full_ = full;
+        Eigen::VectorXd step = part * full;
+        if (!moves_.empty()) {
+            const Eigen::MatrixXd moves = side_by_side(moves_);
+            const Eigen::MatrixXd changes = side_by_side(changes_);
+            const Eigen::MatrixXd sized = size_.asDiagonal() * changes;
+            step -= (moves + part * changes) * sized.completeOrthogonalDecomposition().solve(size_.cwiseProduct(full));
+        }
+        return step;
     }
 
   private:
-    double share_;
-    Eigen::VectorXd last_;
+    static constexpr std::size_t depth = 8;
+    static constexpr double part = 0.5;
+
+    static Eigen::MatrixXd side_by_side(const std::vector<Eigen::VectorXd>& columns) {
+        Eigen::MatrixXd all(columns.front().size(), static_cast<Eigen::Index>(columns.size()));
+        for (std::size_t c = 0; c < columns.size(); ++c) {
+            all.col(static_cast<Eigen::Index>(c)) = columns[c];
+        }
+        return all;
+    }
+
+    Eigen::VectorXd size_;
+    std::vector<Eigen::VectorXd> moves_;
+    std::vector<Eigen::VectorXd> changes_;
+    Eigen::VectorXd last_at_;
+    Eigen::VectorXd last_full_;
 };
 
 /// How far an estimate is from parameters, as change_of_torque; 0 where there is none.
 double moved_by(const fitted_rows& fit, const Eigen::VectorXd& from) {
     return fit.result.chi.size() > 0 ? change_of_torque(fit.rows, fit.result.chi - from) : 0.0;
+}
+
+/// What the weights, an iteration of their own, may leave open, as change_of_torque: a twentieth of the change that one
+/// deviation of every parameter makes, and no less than the 1e-6 of few rows.
+double weights_leave(const fitted_rows& fit) {
+    const double deviation = fit.result.residual.relative_error * std::sqrt(static_cast<double>(fit.result.chi.size()) /
+                                                                            static_cast<double>(fit.rows.rows()));
+    return std::max(1e-6, 0.05 * deviation);
 }
 
 /// Weights of the joints as an estimate leaves them.
@@ -82,10 +119,10 @@ std::vector<double> weights_for(const fitted_rows& fit, least_squares_method met
 fitted_rows fit_rows(const idim_model_interface& model, const std::vector<filtered_samples>& logs,
                      const filter_choice& choice, least_squares_method method) {
     constexpr int most_steps = 50;
-    constexpr double settled = 1e-9;  // of the torque; the deviations of parameters are many times that
-    // Weights are an iteration of their own, which leaves some 1e-7 with few rows: less than a hundredth of a
-    // deviation.
-    constexpr double settled_with_weights = 1e-6;
+    // Of the torque; the deviations of parameters are many times that. Links are put behind their motors to 1e-11 rad,
+    // which is some 1e-8 of the torque of their acceleration.
+    const bool soft = has_soft_joint(model);
+    const double settled = soft ? 1e-7 : 1e-9;
     fitted_rows fit;
     fit.rows = with_log_columns(model, observe(model, logs, choice));
     fit.result = least_squares(fit.rows, method);
@@ -94,11 +131,9 @@ fitted_rows fit_rows(const idim_model_interface& model, const std::vector<filter
     }
     const std::vector<row_selection> kept = selections(fit.rows);
     std::vector<iteration> steps;
-    // The inertia J behind a soft transmission comes out as J^2 / J_0 from rows with J_0: full steps go to and fro,
-    // half steps are Newton's for the square root. Other parameters settle at once in full steps.
-    const bool soft = has_soft_joint(model);
-    relaxation part_of(0.5);
-    const Eigen::VectorXd size = column_norms(fit.rows);
+    // The inertia J behind a soft transmission comes out as J^2 / J_0 from rows with J_0, where the motion is slower
+    // than the link swings: full steps go to and fro, or away. Other parameters settle at once in full steps.
+    mixed_steps mixed(column_norms(fit.rows));
     Eigen::VectorXd at = fit.result.chi;
     std::vector<double> weight = weights_for(fit, method);
     bool done = false;
@@ -108,14 +143,15 @@ fitted_rows fit_rows(const idim_model_interface& model, const std::vector<filter
         steps.push_back({fit.result.chi, fit.result.residual.relative_error});
         if (step > 0) {
             const Eigen::VectorXd full = fit.result.chi - at;
-            at += (soft ? part_of(full.cwiseProduct(size)) : 1.0) * full;
+            at += soft ? mixed(at, full) : full;
         }
         fit.rows = with_log_columns(model, observe(model, logs, choice, kept, at.head(model.n_base)));
         fit.result = solve_weighted(fit.rows, weight).fit;
         if (moved_by(fit, at) <= settled) {
             fit.result = least_squares(fit.rows, method);
             weight = weights_for(fit, method);
-            done = moved_by(fit, at) <= settled_with_weights;
+            mixed = mixed_steps(column_norms(fit.rows));  // another map from here on
+            done = moved_by(fit, at) <= weights_leave(fit);
         }
     }
     if (fit.result.chi.size() > 0) {
