@@ -12,7 +12,7 @@
 #include "regressor.hpp"
 #include "regroup.hpp"
 
-static_assert(IDIM_MODEL_ABI == 5, "this model was generated for another version of the runtime: regenerate it");
+static_assert(IDIM_MODEL_ABI == 6, "this model was generated for another version of the runtime: regenerate it");
 
 namespace model = idim_models::denso_vp6242g;
 
@@ -23,6 +23,7 @@ constexpr std::array<double, model::dof> drive_gain = { 45.6, 60.8, 26.4, 21, 21
 constexpr std::array<double, model::dof> velocity_limit = { 2.94591, 2.206485, 2.937646, 3.527403, 3.580162, 3.554126,  };
 constexpr std::array<double, model::dof> torque_delay = { 0, 0, 0, 0, 0, 0,  };
 constexpr std::array<double, model::dof> joint_stiffness = { 0, 0, 0, 0, 0, 0,  };
+constexpr std::array<double, model::dof> joint_damping = { 0, 0, 0, 0, 0, 0,  };
 constexpr std::array<int, model::base_parameters> parameter_is_per_log = {
     0,  // ZZ1R
     0,  // Fv1
@@ -155,6 +156,7 @@ constexpr idim_model_interface interface = {
     nullptr,
     torque_delay.data(),
     joint_stiffness.data(),
+    joint_damping.data(),
     parameter_is_per_log.data(),
     nullptr,
     nullptr,

@@ -13,7 +13,7 @@
 #include "regroup.hpp"
 #include "closure.hpp"
 
-static_assert(IDIM_MODEL_ABI == 5, "this model was generated for another version of the runtime: regenerate it");
+static_assert(IDIM_MODEL_ABI == 6, "this model was generated for another version of the runtime: regenerate it");
 
 namespace model = idim_models::five_bar;
 
@@ -24,6 +24,7 @@ constexpr std::array<double, model::dof> drive_gain = { 0, 0,  };
 constexpr std::array<double, model::dof> velocity_limit = { 0, 0,  };
 constexpr std::array<double, model::dof> torque_delay = { 0, 0,  };
 constexpr std::array<double, model::dof> joint_stiffness = { 0, 0,  };
+constexpr std::array<double, model::dof> joint_damping = { 0, 0,  };
 constexpr std::array<int, model::base_parameters> parameter_is_per_log = {
     0,  // ZZ1R
     0,  // Fv1
@@ -123,6 +124,7 @@ constexpr idim_model_interface interface = {
     nullptr,
     torque_delay.data(),
     joint_stiffness.data(),
+    joint_damping.data(),
     parameter_is_per_log.data(),
     nullptr,
     nullptr,

@@ -12,7 +12,7 @@
 #include "regressor.hpp"
 #include "regroup.hpp"
 
-static_assert(IDIM_MODEL_ABI == 5, "this model was generated for another version of the runtime: regenerate it");
+static_assert(IDIM_MODEL_ABI == 6, "this model was generated for another version of the runtime: regenerate it");
 
 namespace model = idim_models::scara;
 
@@ -23,6 +23,7 @@ constexpr std::array<double, model::dof> drive_gain = { 0, 0,  };
 constexpr std::array<double, model::dof> velocity_limit = { 0, 0,  };
 constexpr std::array<double, model::dof> torque_delay = { 0, 0,  };
 constexpr std::array<double, model::dof> joint_stiffness = { 0, 0,  };
+constexpr std::array<double, model::dof> joint_damping = { 0, 0,  };
 constexpr std::array<int, model::base_parameters> parameter_is_per_log = {
     0,  // ZZ1R
     0,  // Fv1
@@ -115,6 +116,7 @@ constexpr idim_model_interface interface = {
     nullptr,
     torque_delay.data(),
     joint_stiffness.data(),
+    joint_damping.data(),
     parameter_is_per_log.data(),
     nullptr,
     nullptr,
