@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <cstdio>
 #include <exception>
@@ -37,6 +38,11 @@ int run(const idim::cli::action& chosen) {
 
 int main(int argc, char** argv) {
     using namespace idim::cli;
+    // Matrices of some megabytes come and go: kept instead of given back to the system every time, which costs more
+    // than what is computed with them.
+    constexpr int kept_bytes = 1 << 26;
+    mallopt(M_MMAP_THRESHOLD, kept_bytes / 2);
+    mallopt(M_TRIM_THRESHOLD, kept_bytes);
     CLI::App app("idim " IDIM_VERSION ": symbolic robot models, generated code, identification", "idim");
     app.set_version_flag("--version", IDIM_VERSION);
     app.require_subcommand(1);

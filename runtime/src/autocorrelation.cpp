@@ -10,7 +10,6 @@ namespace idim {
 
 namespace {
 
-constexpr double forgotten = 1e-4;
 
 /// x_m = sum_i a_i x_{m+i}, over `tail` rows before the first one of Z and over the rows that already hold the input.
 void filter_backward(const Eigen::VectorXd& a, Eigen::Ref<Eigen::VectorXd> z) {
@@ -52,7 +51,7 @@ Eigen::VectorXd autoregression::autocorrelation(Eigen::Index lags) const {
     return r;
 }
 
-Eigen::Index autoregression::memory(Eigen::Index limit) const {
+Eigen::Index autoregression::memory(Eigen::Index limit, double forgotten) const {
     if (order() == 0) {
         return 0;
     }

@@ -141,6 +141,16 @@ void check_selection(const row_selection& kept, int joints, Eigen::Index samples
     }
 }
 
+/// Rows `kept` of some columns: copied as a block where they follow one another, which is much faster.
+Eigen::MatrixXd rows_of(const Eigen::MatrixXd& W, const std::vector<Eigen::Index>& kept, Eigen::Index column,
+                        Eigen::Index count) {
+    const auto size = static_cast<Eigen::Index>(kept.size());
+    if (size > 0 && kept.back() - kept.front() + 1 == size) {
+        return W.block(kept.front(), column, size, count);
+    }
+    return W(kept, Eigen::seqN(column, count));
+}
+
 observation_block observe_log(const idim_model_interface& model, const filtered_samples& samples,
                               const filter_choice& choice, const row_selection& kept, const Eigen::VectorXd& chi) {
     observation_block block;
@@ -155,8 +165,7 @@ observation_block observe_log(const idim_model_interface& model, const filtered_
         const int count = std::min(step, model.dof - first);
         const Eigen::MatrixXd W = decimate(recorded_regressor(model, states, first, count), choice.decimation);
         for (int joint = 0; joint < count; ++joint) {
-            const auto columns = Eigen::seqN(Eigen::Index{joint} * model.n_base, model.n_base);
-            block.W.emplace_back(W(kept[first + joint], columns));
+            block.W.push_back(rows_of(W, kept[first + joint], Eigen::Index{joint} * model.n_base, model.n_base));
         }
     }
     block.Y.resize(static_cast<std::size_t>(model.dof));

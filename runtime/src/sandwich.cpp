@@ -75,14 +75,14 @@ std::pair<Eigen::Index, Eigen::Index> own_responses(const row_part& part, Eigen:
     return part.first == 0 ? std::pair(Eigen::Index{0}, tail + part.count) : std::pair(tail + part.first, part.count);
 }
 
-/// Samples around a part that its sums need to 1e-12, three times what a memory leaves at 1e-4.
+/// Samples around a part that its sums need to 1e-12.
 Eigen::Index margin_of(const std::vector<autoregression>& models, Eigen::Index lags) {
     constexpr Eigen::Index longest = Eigen::Index{1} << 14;
     Eigen::Index memory = 0;
     for (const autoregression& model : models) {
-        memory = std::max(memory, model.memory(longest));
+        memory = std::max(memory, model.memory(longest, 1e-12));
     }
-    return 3 * memory + lags;
+    return memory + lags;
 }
 
 /// Sums over the rows of one joint that the model of its noise gives: Q' Gamma Q, and tr(Q' D_l P Gamma Q) at lags

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double rank_tolerance = 1e-10;
 constexpr double null_space_tolerance = 1e-5;
+constexpr Eigen::Index rows_in_cache = 512;  // reflections go through all rows once for each column
 
 /// Upper triangle of A, min(rows, cols) x cols.
 Eigen::MatrixXd triangle_of(Eigen::MatrixXd A) {
@@ -29,9 +30,18 @@ Eigen::MatrixXd triangle_of(const Eigen::Ref<const Eigen::MatrixXd>& W, const Ei
             felt.push_back(c);
         }
     }
-    Eigen::MatrixXd A(W.rows(), static_cast<Eigen::Index>(felt.size()) + 1);
-    A << W(Eigen::all, felt), Y;
-    const Eigen::MatrixXd small = triangle_of(std::move(A));
+    const Eigen::Index columns = static_cast<Eigen::Index>(felt.size()) + 1;
+    Eigen::MatrixXd small(0, columns);
+    for (Eigen::Index first = 0; first < W.rows(); first += rows_in_cache) {
+        const Eigen::Index count = std::min(rows_in_cache, W.rows() - first);
+        Eigen::MatrixXd A(small.rows() + count, columns);
+        A.topRows(small.rows()) = small;
+        for (Eigen::Index c = 0; c + 1 < columns; ++c) {
+            A.col(c).tail(count) = W.col(felt[static_cast<std::size_t>(c)]).segment(first, count);
+        }
+        A.col(columns - 1).tail(count) = Y.segment(first, count);
+        small = triangle_of(std::move(A));
+    }
 
     felt.push_back(W.cols());
     Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(small.rows(), W.cols() + 1);

@@ -32,8 +32,8 @@ struct autoregression {
     Eigen::Index order() const { return a.size(); }
     /// Autocorrelation at lags 0..lags, [lags + 1].
     Eigen::VectorXd autocorrelation(Eigen::Index lags) const;
-    /// Rows after which the response to one innovation stays below 1e-4 of it, at most `limit`.
-    Eigen::Index memory(Eigen::Index limit) const;
+    /// Rows after which the response to one innovation stays below `forgotten` of it, at most `limit`.
+    Eigen::Index memory(Eigen::Index limit, double forgotten = 1e-4) const;
     /// Integrated autocorrelation time [rows], >= 1: the larger of 1 + 2 sum rho(l), by which the variance of a mean
     /// grows, and 1 + 2 sum rho(l)^2, which also sees an oscillation whose rho(l) sum to nothing. At most `limit`.
     double correlation_length(Eigen::Index limit) const;

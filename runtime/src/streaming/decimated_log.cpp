@@ -8,8 +8,8 @@ namespace idim {
 
 namespace {
 
-constexpr Eigen::Index fewest_samples_at_once = Eigen::Index{1} << 13;
-constexpr Eigen::Index times_reach = 6;  // so that little is filtered twice
+constexpr Eigen::Index fewest_samples_at_once = Eigen::Index{1} << 11;  // whose regressors stay in the cache
+constexpr Eigen::Index times_reach = 6;                                 // so that little is filtered twice
 
 /// Rows of the decimation filter's memory, at least those that its ends are continued by.
 Eigen::Index decimation_reach(int decimation) {

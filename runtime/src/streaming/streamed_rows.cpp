@@ -194,6 +194,14 @@ void streamed_rows::visit(Eigen::Index margin, const std::function<void(const ro
 
 void streamed_rows::visit(const decimated_log& log, Eigen::Index margin,
                           const std::function<void(const row_part&)>& use) const {
+    if (margin == 0) {
+        for (Eigen::Index first = 0; first < log.rows(); first += log.rows_at_once()) {
+            const Eigen::Index count = std::min(log.rows_at_once(), log.rows() - first);
+            const observation_block block = log.part(model_, first, count);
+            use({block, 0, count, std::min(log.rows(), longest_reach), first == 0});
+        }
+        return;
+    }
     sliding_window window(model_, log);
     for (Eigen::Index first = 0; first < log.rows(); first += rows_in_part) {
         const Eigen::Index count = std::min(rows_in_part, log.rows() - first);

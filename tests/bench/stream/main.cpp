@@ -2,6 +2,7 @@
 // joints, identified in parts; each size in a process of its own, whose peak memory is given. Beside it the QR
 // factorisation of LAPACK on the same rows. Usage: stream_bench [DECIMATION], default 1: every sample is a row.
 #include <fmt/format.h>
+#include <malloc.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -249,5 +250,7 @@ int run(int decimation) {
 }  // namespace idim::bench
 
 int main(int count, char** words) {
+    mallopt(M_MMAP_THRESHOLD, 1 << 25);  // as the command does
+    mallopt(M_TRIM_THRESHOLD, 1 << 26);
     return idim::bench::run(count > 1 ? std::atoi(words[1]) : 1);
 }
