@@ -116,10 +116,10 @@ Eigen::MatrixXd recorded_regressor(const idim_model_interface& model, const reco
     return sampled;
 }
 
-/// Joints whose full-rate rows are held at once: as many as fit in 256 MiB, so that a long log costs repeated
-/// evaluations of the regressor instead of memory.
+/// Joints whose full-rate rows are held at once: as many as fit in 32 MiB, which the allocator keeps instead of giving
+/// them back to the system, so that a long log costs repeated evaluations of the regressor instead of memory.
 int joints_at_once(const idim_model_interface& model, Eigen::Index samples) {
-    constexpr double budget = 256.0 * 1024.0 * 1024.0;
+    constexpr double budget = 32.0 * 1024.0 * 1024.0;
     const double one_joint = static_cast<double>(samples) * model.n_base * sizeof(double);
     return static_cast<int>(std::clamp(budget / one_joint, 1.0, static_cast<double>(model.dof)));
 }

@@ -111,6 +111,13 @@ TEST_F(StreamCommand, NamesTheLineOfAFaultBehindTheFirstBlock) {
     EXPECT_NE(refusal({}).find("faulty.csv:30002: q1: 'oops' where a finite number was expected"), std::string::npos);
 }
 
+TEST_F(StreamCommand, SaysThatThereIsNoFolderForTemporaryFiles) {
+    const command_result answer =
+        run_program({"env", "TMPDIR=/nowhere", IDIM_COMMAND, "identify", robot_, log_, "--stream"});
+    EXPECT_EQ(answer.status, 2);
+    EXPECT_EQ(answer.err, "idim: TMPDIR: names no folder, expected one for temporary files\n");
+}
+
 TEST_F(StreamCommand, LeavesNothingInTheTemporaryFolder) {
     const std::filesystem::path scratch = folder_.path() / "scratch";
     std::filesystem::create_directory(scratch);

@@ -1,5 +1,6 @@
 #include "streaming/scratch_table.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -17,15 +18,24 @@ namespace {
 
 using row_major_rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+std::filesystem::path scratch_folder() {
+    std::error_code error;
+    std::filesystem::path folder = std::filesystem::temp_directory_path(error);
+    if (error) {
+        throw input_error({"", 0, "TMPDIR"}, "names no folder, expected one for temporary files");
+    }
+    return folder;
+}
+
 [[noreturn]] void fail_scratch(const char* what) {
     const std::string why = std::strerror(errno);
-    throw input_error({std::filesystem::temp_directory_path().string(), 0, ""},
+    throw input_error({scratch_folder().string(), 0, ""},
                       std::string("a temporary file ").append(what).append(" there: ").append(why));
 }
 
 file_descriptor temporary_file() {
-    std::string name = (std::filesystem::temp_directory_path() / "idim-XXXXXX").string();
-    file_descriptor file(mkstemp(name.data()));
+    std::string name = (scratch_folder() / "idim-XXXXXX").string();
+    file_descriptor file(mkostemp(name.data(), O_CLOEXEC));
     if (!file.is_open()) {
         fail_scratch("cannot be made");
     }
