@@ -148,7 +148,9 @@ essential_parameters find_essential(const row_source& rows, const joint_triangle
 }
 
 essential_parameters find_essential(const observation& rows, const estimate& full, double significance) {
-    return find_essential(resident_rows(rows), triangles_of(rows), full, significance);
+    essential_parameters result = find_essential(resident_rows(rows), triangles_of(rows), full, significance);
+    result.residual = errors(rows, result.chi);  // to the last digit, where the rows are at hand
+    return result;
 }
 
 }  // namespace idim

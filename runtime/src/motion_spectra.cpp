@@ -15,6 +15,8 @@ namespace idim {
 namespace {
 
 constexpr Eigen::Index shortest_log = 64;  // samples, for segments of 16
+// Samples by which the segments are chosen, 2^16 at most: a longer log gives more of them instead of a finer grid.
+constexpr Eigen::Index longest_span = Eigen::Index{1} << 18;
 
 /// Range of every joint's position, and what tells a motion from noise.
 struct motion_extent {
@@ -90,7 +92,7 @@ void append_spectra(const readable_log& data, std::vector<joint_spectra>& spectr
                         "decimation",
                         data.samples, shortest_log));
     }
-    const Eigen::Index segment = welch_segment(data.samples - 2);
+    const Eigen::Index segment = welch_segment(std::min(data.samples - 2, longest_span));
     const welch_average empty(data.rate, segment);
     std::vector<joint_averages> averages;
     for (const Eigen::Index joint : moving_joints(data)) {

@@ -1,6 +1,5 @@
 #include "idim/power_spectrum.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -51,13 +50,11 @@ power_spectrum welch_spectrum(const Eigen::Ref<const Eigen::VectorXd>& x, double
 }
 
 Eigen::Index welch_segment(Eigen::Index samples) {
-    constexpr Eigen::Index longest = Eigen::Index{1} << 16;
-    const Eigen::Index most = std::min(samples / 4, longest);
     Eigen::Index power = 1;
-    while (2 * power <= most) {
+    while (2 * power <= samples / 4) {
         power *= 2;
     }
-    return power / 2 * 3 <= most ? power / 2 * 3 : power;
+    return power / 2 * 3 <= samples / 4 ? power / 2 * 3 : power;
 }
 
 double energy_frequency(const power_spectrum& spectrum, double share, double limit) {

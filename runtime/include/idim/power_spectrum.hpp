@@ -32,8 +32,7 @@ class welch_average {
 /// 'hann', nperseg=segment). Throws std::invalid_argument unless 2 <= segment <= samples.
 power_spectrum welch_spectrum(const Eigen::Ref<const Eigen::VectorXd>& x, double rate, Eigen::Index segment);
 
-/// Largest 2^a or 3 * 2^a not above a quarter of `samples`: at least seven segments, and a length the FFT likes. At
-/// most 2^16: a longer log gives more segments instead of a finer grid.
+/// Largest 2^a or 3 * 2^a not above a quarter of `samples`: at least seven segments, and a length the FFT likes.
 Eigen::Index welch_segment(Eigen::Index samples);
 
 /// Smallest frequency below which the share `share` of the energy up to `limit` [Hz] lies.
