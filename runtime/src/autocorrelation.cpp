@@ -10,7 +10,6 @@ namespace idim {
 
 namespace {
 
-
 /// x_m = sum_i a_i x_{m+i}, over `tail` rows before the first one of Z and over the rows that already hold the input.
 void filter_backward(const Eigen::VectorXd& a, Eigen::Ref<Eigen::VectorXd> z) {
     for (Eigen::Index m = z.size() - 2; m >= 0; --m) {
