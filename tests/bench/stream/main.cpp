@@ -128,8 +128,8 @@ void write_synthetic(const std::string& file, Eigen::Index samples) {
 }
 
 void print_step(const char* what, double seconds, Eigen::Index rows) {
-    fmt::print("  {:<58} {:>8.1f} s {:>8.2f} million rows/s {:>6.0f} MB\n", what, seconds,
-               1e-6 * static_cast<double>(rows) / seconds, peak_memory());
+    fmt::print("  {:<58} {:>8.1f} s {:>9.1f} thousand rows/s {:>6.0f} MB\n", what, seconds,
+               1e-3 * static_cast<double>(rows) / seconds, peak_memory());
     std::fflush(stdout);
 }
 
