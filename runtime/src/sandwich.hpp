@@ -43,7 +43,7 @@ sandwich robust_covariance(const observation& instruments, const std::vector<dou
                            const Eigen::MatrixXd& instrument_inverse, const Eigen::MatrixXd& to_parameters,
                            const joint_series& residual);
 
-/// The same of rows that come in parts, in six passes over them. Correlations that reach over the end of a part count
+/// The same of rows that come in parts, in five passes over them. Correlations that reach over the end of a part count
 /// as far as 1e-12 of them.
 sandwich robust_covariance(const row_source& instruments, const std::vector<double>& joint_weight,
                            const Eigen::MatrixXd& instrument_inverse, const Eigen::MatrixXd& to_parameters,
