@@ -377,6 +377,12 @@ both_ways identified(const std::vector<recording>& logs, const filter_choice& ch
     return result;
 }
 
+void expect_same_essential(const both_ways& result) {
+    EXPECT_EQ(result.in_parts.essential.kept, result.essential.kept);
+    EXPECT_LT(difference(result.in_parts.essential.chi, result.essential.chi), 1e-10);
+    EXPECT_LT(difference(result.in_parts.essential.std, result.essential.std), 1e-6);
+}
+
 void expect_same(const both_ways& result) {
     const estimate& a = result.in_memory;
     const estimate& b = result.in_parts.fit;
@@ -400,9 +406,7 @@ void expect_same(const both_ways& result) {
         EXPECT_NEAR(in_parts.skewness, in_memory.skewness, 1e-6);
         EXPECT_NEAR(in_parts.excess_kurtosis, in_memory.excess_kurtosis, 1e-6);
     }
-    EXPECT_EQ(result.in_parts.essential.kept, result.essential.kept);
-    EXPECT_LT(difference(result.in_parts.essential.chi, result.essential.chi), 1e-10);
-    EXPECT_LT(difference(result.in_parts.essential.std, result.essential.std), 1e-6);
+    expect_same_essential(result);
 }
 
 TEST(Streaming, WeightedLeastSquaresOfManyPartsIsThatInMemory) {
