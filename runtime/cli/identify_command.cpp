@@ -9,6 +9,7 @@
 #include "measured_motion.hpp"
 #include "method_report.hpp"
 #include "method_run.hpp"
+#include "streamed_logs.hpp"
 
 namespace idim::cli {
 
@@ -21,6 +22,7 @@ struct identify_options {
     bool compare = false;
     method_request simulation;
     filter_request filter;
+    bool stream = false;
     std::string truth;
     std::string json_file;
 };
@@ -159,56 +161,124 @@ void check_period_use(const identify_options& options) {
     }
 }
 
-int run(const identify_options& options) {
-    check_period_use(options);
-    const loaded_robot robot = load_robot(options.robot);
-    const Eigen::VectorXd truth = options.truth.empty() ? Eigen::VectorXd() : read_parameters(options.truth, robot).chi;
-    const std::vector<idim::log> logs = read_logs(robot, options.logs);
-    const std::vector<std::string> at_rest = joints_at_rest(robot, logs);
+/// Whether the logs are read in parts: as asked for, or large ones where that can be done. Throws input_error where it
+/// is asked for and cannot.
+bool streams(const loaded_robot& robot, const identify_options& options) {
+    const std::string obstacle = options.compare
+                                     ? "not with --compare, expected --method ols or wls"
+                                     : streaming_obstacle(robot, options.method, !options.simulation.period.empty());
+    if (options.stream && !obstacle.empty()) {
+        throw input_error({"", 0, "--stream"}, obstacle);
+    }
+    return obstacle.empty() && (options.stream || are_large(options.logs));
+}
+
+/// What a run came to.
+struct outcome {
+    identification found;
+    method_result by;
+    std::optional<periodic_logs> periods;
+    std::vector<std::string> at_rest;
+    bool streamed = false;
+};
+
+json content_of(const outcome& run, const identify_options& options) {
+    const loaded_robot& robot = run.found.robot;
+    json content = to_json(run.found, options.method);
+    content["streamed"] = run.streamed;
+    if (run.periods) {
+        content["periodic"] = to_json(*run.periods, robot);
+        add_scatter_deviations(content["parameters"], run.by.scatter_deviations);
+    }
+    content["description"] = options.robot;
+    if (run.by.consistent) {
+        content["consistency"] = to_json(*run.by.consistent, robot);
+        flag_bounds(content["parameters"], *run.by.consistent);
+    }
+    content["iterations"] = iterations_json(run.by.fit, robot);
+    content["loop"] = loop_json(run.by);
+    content["tests"] = tests_json(run.by, robot);
+    return content;
+}
+
+int report(const outcome& run, const identify_options& options, const Eigen::VectorXd& truth) {
+    const estimate& result = run.found.result;
+    write_json(options.json_file, content_of(run, options));
+    if (result.chi.size() == 0) {
+        if (prints_text(options.json_file)) {
+            print_iterations(run.by, run.found.robot);
+        }
+        const bool unexcited = !result.not_excited.empty() && result.iterations.empty();
+        throw data_error(unexcited ? explain(run.found, run.at_rest) : result.message);
+    }
+    if (prints_text(options.json_file)) {
+        print_identification(run.found, run.by, run.periods);
+        if (truth.size() > 0) {
+            print_truth(run.found, truth);
+        }
+    }
+    return exit_done;
+}
+
+void require_motion(const loaded_robot& robot, const std::vector<std::string>& at_rest) {
     if (at_rest.size() == robot.generated.joints.size()) {
         throw data_error(explain_standstill(robot, at_rest));
     }
-    const filter_choice filter = choose_filter(logs, options.filter);
-    method_runner runner(robot, options.robot, logs, filter, options.simulation);
-    if (options.compare) {
-        return compare(options, robot, filter, runner);
-    }
+}
+
+/// What a method made of rows in memory.
+outcome outcome_of(const loaded_robot& robot, const identify_options& options, const filter_choice& filter,
+                   method_runner& runner, std::vector<std::string> at_rest) {
     observation rows = simulates(options.method) ? runner.steady_rows() : runner.all_rows();
-    const method_result by = runner.run(options.method, rows);
+    method_result by = runner.run(options.method, rows);
     essential_parameters essential;
     // The F test behind it supposes least squares on these rows.
     if (by.fit.chi.size() > 0 && !simulates(options.method) && !by.consistent) {
         essential = find_essential(rows, by.fit);
     }
-    const identification found{robot, filter, std::move(rows), by.fit, std::move(essential)};
-    json content = to_json(found, options.method);
-    if (runner.periods()) {
-        content["periodic"] = to_json(*runner.periods(), robot);
-        add_scatter_deviations(content["parameters"], by.scatter_deviations);
-    }
-    content["description"] = options.robot;
-    if (by.consistent) {
-        content["consistency"] = to_json(*by.consistent, robot);
-        flag_bounds(content["parameters"], *by.consistent);
-    }
-    content["iterations"] = iterations_json(by.fit, robot);
-    content["loop"] = loop_json(by);
-    content["tests"] = tests_json(by, robot);
-    write_json(options.json_file, content);
-    if (found.result.chi.size() == 0) {
-        if (prints_text(options.json_file)) {
-            print_iterations(by, robot);
+    identification found{robot, filter, std::move(rows), by.fit, std::move(essential)};
+    return {std::move(found), std::move(by), runner.release_periods(), std::move(at_rest)};
+}
+
+/// The same of logs that are read in parts.
+outcome streamed(const loaded_robot& robot, const identify_options& options) {
+    const std::vector<stored_log> logs = store_logs(robot, options.logs);
+    std::vector<std::string> at_rest = joints_at_rest(robot, logs);
+    require_motion(robot, at_rest);
+    const filter_choice filter = choose_filter(logs, options.filter);
+    std::optional<periodic_logs> periods;
+    if (!options.simulation.period.empty()) {
+        periods = find_periods(logs, filter, options.simulation.period);
+        if (periods->averages()) {
+            method_runner runner(robot, options.robot, std::move(*periods), filter, options.simulation);
+            outcome run = outcome_of(robot, options, filter, runner, std::move(at_rest));
+            run.streamed = true;
+            return run;
         }
-        const bool unexcited = !found.result.not_excited.empty() && found.result.iterations.empty();
-        throw data_error(unexcited ? explain(found, at_rest) : found.result.message);
-    }
-    if (prints_text(options.json_file)) {
-        print_identification(found, by, runner.periods());
-        if (truth.size() > 0) {
-            print_truth(found, truth);
+        if (const std::string obstacle = streaming_obstacle(robot, options.method, false); !obstacle.empty()) {
+            throw input_error({"", 0, "--stream"}, fmt::format("{} ({})", obstacle, periods->obstacle));
         }
     }
-    return exit_done;
+    streamed_outcome run = identify_streamed(robot, logs, filter, options.method);
+    return {std::move(run.found), std::move(run.by), std::move(periods), std::move(at_rest), true};
+}
+
+int run(const identify_options& options) {
+    check_period_use(options);
+    const loaded_robot robot = load_robot(options.robot);
+    const Eigen::VectorXd truth = options.truth.empty() ? Eigen::VectorXd() : read_parameters(options.truth, robot).chi;
+    if (streams(robot, options)) {
+        return report(streamed(robot, options), options, truth);
+    }
+    const std::vector<idim::log> logs = read_logs(robot, options.logs);
+    const std::vector<std::string> at_rest = joints_at_rest(robot, logs);
+    require_motion(robot, at_rest);
+    const filter_choice filter = choose_filter(logs, options.filter);
+    method_runner runner(robot, options.robot, logs, filter, options.simulation);
+    if (options.compare) {
+        return compare(options, robot, filter, runner);
+    }
+    return report(outcome_of(robot, options, filter, runner, at_rest), options, truth);
 }
 
 }  // namespace
@@ -240,6 +310,9 @@ void add_identify_command(CLI::App& app, action& chosen) {
         "--period", options->simulation.period,
         "average the periods of the logs, each this many seconds, or auto (found; where nothing repeats, "
         "the whole logs are rows); wls and cwls then weight every sample by its torque covariance");
+    command->add_flag("--stream", options->stream,
+                      "read the logs in parts, so that memory does not depend on their length: ols and wls, with "
+                      "--period cwls too; done by itself for logs above 256 MiB (compressed 64 MiB)");
     add_loop_options(*command, options->simulation.loop);
     add_consistency_options(*command, options->simulation.consistency);
     add_filter_options(*command, options->filter);

@@ -38,8 +38,12 @@ int run(const idim::cli::action& chosen) {
 
 int main(int argc, char** argv) {
     using namespace idim::cli;
-    // Memory from the system in few pieces: models are many small objects that come and go.
-    mallopt(M_TOP_PAD, 4 << 20);
+    // Models are many small objects, data are matrices of some megabytes, and both come and go: memory is taken from the
+    // system in few pieces and kept instead of given back every time, which costs more than what is computed with them.
+    constexpr int kept_bytes = 1 << 26;
+    mallopt(M_TOP_PAD, 1 << 22);
+    mallopt(M_MMAP_THRESHOLD, kept_bytes / 2);
+    mallopt(M_TRIM_THRESHOLD, kept_bytes);
     CLI::App app("idim " IDIM_VERSION ": symbolic robot models, generated code, identification", "idim");
     app.set_version_flag("--version", IDIM_VERSION);
     app.require_subcommand(1);

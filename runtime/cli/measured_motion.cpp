@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "catalogue/effect_library.hpp"
@@ -75,19 +76,47 @@ std::vector<idim::log> read_logs(const loaded_robot& robot, const std::vector<st
     return logs;
 }
 
-std::vector<std::string> joints_at_rest(const loaded_robot& robot, const std::vector<idim::log>& logs) {
+std::vector<stored_log> store_logs(const loaded_robot& robot, const std::vector<std::string>& files) {
+    std::vector<stored_log> logs;
+    for (const std::string& file : files) {
+        logs.emplace_back(file, columns_of(robot),
+                          [&](const idim::log& block) { check_that_loops_close(robot.model(), block); });
+    }
+    return logs;
+}
+
+namespace {
+
+/// `ranges`: of the positions in every log [n].
+std::vector<std::string> joints_without(const loaded_robot& robot, const std::vector<Eigen::VectorXd>& ranges) {
     std::vector<std::string> names;
     for (std::size_t j = 0; j < robot.generated.joints.size(); ++j) {
-        bool moves = false;
-        for (const idim::log& log : logs) {
-            const auto q = log.q.col(static_cast<Eigen::Index>(j));
-            moves = moves || q.maxCoeff() > q.minCoeff();
-        }
+        const bool moves = std::any_of(ranges.begin(), ranges.end(), [&](const Eigen::VectorXd& range) {
+            return range[static_cast<Eigen::Index>(j)] > 0.0;
+        });
         if (!moves) {
             names.push_back(robot.generated.joints[j].name);
         }
     }
     return names;
+}
+
+}  // namespace
+
+std::vector<std::string> joints_at_rest(const loaded_robot& robot, const std::vector<idim::log>& logs) {
+    std::vector<Eigen::VectorXd> ranges;
+    for (const idim::log& log : logs) {
+        ranges.emplace_back(log.q.colwise().maxCoeff() - log.q.colwise().minCoeff());
+    }
+    return joints_without(robot, ranges);
+}
+
+std::vector<std::string> joints_at_rest(const loaded_robot& robot, const std::vector<stored_log>& logs) {
+    std::vector<Eigen::VectorXd> ranges;
+    for (const stored_log& log : logs) {
+        ranges.push_back(log.range());
+    }
+    return joints_without(robot, ranges);
 }
 
 observation observe_logs(const loaded_robot& robot, const std::vector<idim::log>& logs, const filter_choice& choice,

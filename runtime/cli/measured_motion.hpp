@@ -9,6 +9,7 @@
 #include "idim/compiled_model.hpp"
 #include "idim/estimate.hpp"
 #include "idim/log.hpp"
+#include "idim/stored_log.hpp"
 
 namespace idim::cli {
 
@@ -38,8 +39,12 @@ log_columns columns_of(const loaded_robot& robot);
 /// Reads all logs.
 std::vector<idim::log> read_logs(const loaded_robot& robot, const std::vector<std::string>& files);
 
+/// Reads all logs into temporary files.
+std::vector<stored_log> store_logs(const loaded_robot& robot, const std::vector<std::string>& files);
+
 /// Joints whose measured position never leaves one value over all logs, by name.
 std::vector<std::string> joints_at_rest(const loaded_robot& robot, const std::vector<idim::log>& logs);
+std::vector<std::string> joints_at_rest(const loaded_robot& robot, const std::vector<stored_log>& logs);
 
 /// Rows of the identification: filtered, decimated; of parameters `chi` where they depend on these.
 observation observe_logs(const loaded_robot& robot, const std::vector<idim::log>& logs, const filter_choice& choice,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "identified_parameters.hpp"
 #include "idim/control_law.hpp"
@@ -47,15 +48,18 @@ bool simulates(const std::string& method) {
 method_runner::method_runner(const loaded_robot& robot, const std::string& robot_file,
                              const std::vector<idim::log>& logs, const filter_choice& filter,
                              const method_request& request)
-    : robot_(robot),
-      robot_file_(robot_file),
-      logs_(logs),
-      filter_(filter),
-      request_(request),
-      experiment_{robot.model(), logs, filter} {
+    : robot_(robot), robot_file_(robot_file), logs_(&logs), filter_(filter), request_(request) {
     if (!request.period.empty()) {
         periods_ = find_periods(logs, filter, request.period);
     }
+}
+
+method_runner::method_runner(const loaded_robot& robot, const std::string& robot_file, periodic_logs periods,
+                             const filter_choice& filter, const method_request& request)
+    : robot_(robot), robot_file_(robot_file), filter_(filter), request_(request), periods_(std::move(periods)) {}
+
+loop_experiment method_runner::experiment() const {
+    return {robot_.model(), *logs_, filter_};
 }
 
 observation method_runner::all_rows() const {
@@ -63,7 +67,7 @@ observation method_runner::all_rows() const {
         return rows_of_period(fitted(periods_->average), periods_->parts, filter_);
     }
     std::vector<filtered_samples> samples;
-    for (const idim::log& log : logs_) {
+    for (const idim::log& log : *logs_) {
         samples.push_back(filter_log(log, filter_));
     }
     return fitted(samples);
@@ -83,14 +87,14 @@ observation method_runner::fitted(const std::vector<filtered_samples>& samples) 
 const simulated_loops& method_runner::loops() {
     if (!loops_) {
         const estimate ls = least_squares(all_rows(), least_squares_method::wls);
-        loops_ = simulated_loops_of(robot_, robot_file_, logs_, filter_, request_.loop,
+        loops_ = simulated_loops_of(robot_, robot_file_, *logs_, filter_, request_.loop,
                                     physical_or_regular(robot_.model(), ls.chi));
     }
     return *loops_;
 }
 
 observation method_runner::steady_rows() {
-    return observe_steady(experiment_, loops().rescaled);
+    return observe_steady(experiment(), loops().rescaled);
 }
 
 method_runner::start_point method_runner::start_for(const observation& rows) const {
@@ -105,7 +109,7 @@ method_runner::start_point method_runner::start_for(const observation& rows) con
 
 loop_estimate method_runner::simulate(const std::string& method, const observation& rows, const start_point& start) {
     const closed_loop& loop = method == "cloe" ? loops().fixed : loops().rescaled;
-    return identify_in_loop(experiment_, loop, rows, simulating_methods().at(method), start.chi, request_.options);
+    return identify_in_loop(experiment(), loop, rows, simulating_methods().at(method), start.chi, request_.options);
 }
 
 bool method_runner::whitens(const std::string& method) const {

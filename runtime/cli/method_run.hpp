@@ -45,6 +45,9 @@ class method_runner {
   public:
     method_runner(const loaded_robot& robot, const std::string& robot_file, const std::vector<idim::log>& logs,
                   const filter_choice& filter, const method_request& request);
+    /// On averaged periods alone, for methods that do not simulate.
+    method_runner(const loaded_robot& robot, const std::string& robot_file, periodic_logs periods,
+                  const filter_choice& filter, const method_request& request);
 
     /// Rows of the methods that do not simulate; where they depend on the parameters (fit_rows) those of the weighted
     /// least squares estimate. Throws data_error if they do not settle.
@@ -54,8 +57,8 @@ class method_runner {
     observation steady_rows();
     /// `rows`: steady_rows() for a method that simulates, either for the others.
     method_result run(const std::string& method, const observation& rows);
-    /// The periods of the logs; nothing if the user did not ask for them.
-    const std::optional<periodic_logs>& periods() const { return periods_; }
+    /// The periods of the logs, taken from it, so that it runs no more; nothing if the user did not ask for them.
+    std::optional<periodic_logs> release_periods() { return std::move(periods_); }
 
   private:
     struct start_point {
@@ -63,6 +66,7 @@ class method_runner {
         std::string name;
     };
 
+    loop_experiment experiment() const;
     const simulated_loops& loops();
     observation fitted(const std::vector<filtered_samples>& samples) const;
     bool whitens(const std::string& method) const;
@@ -73,10 +77,9 @@ class method_runner {
 
     const loaded_robot& robot_;
     const std::string& robot_file_;
-    const std::vector<idim::log>& logs_;
+    const std::vector<idim::log>* logs_ = nullptr;  ///< none on averaged periods alone
     const filter_choice& filter_;
     const method_request& request_;
-    loop_experiment experiment_;
     std::optional<simulated_loops> loops_;
     std::optional<periodic_logs> periods_;
 };

@@ -48,25 +48,50 @@ bool periodic_logs::weights() const {
            std::all_of(scatter.begin(), scatter.end(), [](const torque_scatter& one) { return one.scatters; });
 }
 
+namespace {
+
+/// Takes in a log that began at `start` [s]; false where it has no periods, and none were given.
+bool add(const motion_source& motion, double start, std::optional<double> given, const filter_choice& filter,
+         periodic_logs& periods) {
+    const period_search found = find_period(motion, given);
+    if (!found.part && given) {
+        throw input_error({motion.file(), 0, "--period"}, found.obstacle);
+    }
+    if (!found.part) {
+        periods.obstacle = fmt::format("{}: {}", motion.file(), found.obstacle);
+        return false;
+    }
+    periods.files.push_back(motion.file());
+    periods.parts.push_back(*found.part);
+    periods.average.push_back(average_periods(motion, *found.part, filter));
+    periods.scatter.push_back(scatter_of(motion, *found.part, filter));
+    periods.rates.push_back(motion.rate());
+    periods.starts.push_back(motion.part(found.part->first, 1).t[0] - start);
+    return true;
+}
+
+}  // namespace
+
 periodic_logs find_periods(const std::vector<idim::log>& logs, const filter_choice& filter, const std::string& period) {
     const std::optional<double> given = seconds_of(period);
     periodic_logs periods;
     for (const idim::log& log : logs) {
         const filtered_samples samples = filter_log(log, filter);
-        const period_search found = find_period(samples, given);
-        if (!found.part && given) {
-            throw input_error({log.file, 0, "--period"}, found.obstacle);
+        if (!add(resident_motion(samples), log.t[0], given, filter, periods)) {
+            break;
         }
-        if (!found.part) {
-            periods.obstacle = fmt::format("{}: {}", log.file, found.obstacle);
-            return periods;
+    }
+    return periods;
+}
+
+periodic_logs find_periods(const std::vector<stored_log>& logs, const filter_choice& filter,
+                           const std::string& period) {
+    const std::optional<double> given = seconds_of(period);
+    periodic_logs periods;
+    for (const stored_log& log : logs) {
+        if (!add(*filter_log(log, filter), log.start(), given, filter, periods)) {
+            break;
         }
-        periods.files.push_back(log.file);
-        periods.parts.push_back(*found.part);
-        periods.average.push_back(average_periods(samples, *found.part, filter));
-        periods.scatter.push_back(scatter_of(samples, *found.part, filter));
-        periods.rates.push_back(samples.rate);
-        periods.starts.push_back(samples.t[found.part->first] - log.t[0]);
     }
     return periods;
 }

@@ -26,6 +26,7 @@ struct periodic_logs {
 /// `period`: auto, or seconds. Throws input_error for a number that cannot be read, and for given periods that the logs
 /// do not hold; where `auto` finds none, obstacle says why.
 periodic_logs find_periods(const std::vector<idim::log>& logs, const filter_choice& filter, const std::string& period);
+periodic_logs find_periods(const std::vector<stored_log>& logs, const filter_choice& filter, const std::string& period);
 
 /// `periodic` of the JSON of identify.
 json to_json(const periodic_logs& periods, const loaded_robot& robot);

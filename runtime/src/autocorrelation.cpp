@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "lag_moments.hpp"
 
 namespace idim {
 
 namespace {
-
-constexpr double forgotten = 1e-4;
-constexpr double shortest_share = 0.25;  // of the samples, for a reflection coefficient to be taken from them
 
 /// x_m = sum_i a_i x_{m+i}, over `tail` rows before the first one of Z and over the rows that already hold the input.
 void filter_backward(const Eigen::VectorXd& a, Eigen::Ref<Eigen::VectorXd> z) {
@@ -24,53 +24,6 @@ void filter_forward(const Eigen::VectorXd& a, Eigen::Ref<Eigen::VectorXd> z) {
         const Eigen::Index past = std::min(a.size(), m);
         z[m] += a.head(past).dot(z.segment(m - past, past).reverse());
     }
-}
-
-/// Coefficients of one order more, by Levinson's recursion.
-Eigen::VectorXd raised(const Eigen::VectorXd& a, double reflection) {
-    Eigen::VectorXd next(a.size() + 1);
-    next << a - reflection * a.reverse(), reflection;
-    return next;
-}
-
-/// Prediction errors of one segment at the present order of Burg's recursion.
-struct lattice {
-    Eigen::VectorXd forward;
-    Eigen::VectorXd backward;
-    Eigen::VectorXi run;  ///< samples without a gap that end at each
-};
-
-lattice start_lattice(const gapped_series& segment) {
-    lattice errors{segment.value, segment.value, Eigen::VectorXi::Zero(segment.value.size())};
-    for (Eigen::Index k = 0; k < errors.run.size(); ++k) {
-        errors.run[k] = segment.present[k] > 0.0 ? (k > 0 ? errors.run[k - 1] : 0) + 1 : 0;
-    }
-    return errors;
-}
-
-/// The reflection coefficient of order p, applied to the errors; 0 if fewer than `least` samples have p before them.
-double reflect(std::vector<lattice>& segments, Eigen::Index p, double least) {
-    double products = 0.0;
-    double power = 0.0;
-    double count = 0.0;
-    for (const lattice& errors : segments) {
-        for (Eigen::Index k = p; k < errors.run.size(); ++k) {
-            if (errors.run[k] > p) {
-                products += errors.forward[k] * errors.backward[k - 1];
-                power += errors.forward[k] * errors.forward[k] + errors.backward[k - 1] * errors.backward[k - 1];
-                count += 1.0;
-            }
-        }
-    }
-    const double reflection = power > 0.0 && count >= least ? 2.0 * products / power : 0.0;
-    for (lattice& errors : segments) {
-        for (Eigen::Index k = errors.run.size() - 1; k >= p; --k) {
-            const double forward = errors.forward[k];
-            errors.forward[k] -= reflection * errors.backward[k - 1];
-            errors.backward[k] = errors.backward[k - 1] - reflection * forward;
-        }
-    }
-    return reflection;
 }
 
 /// Corrected Akaike criterion of an autoregression with variance v of the innovations.
@@ -97,17 +50,17 @@ Eigen::VectorXd autoregression::autocorrelation(Eigen::Index lags) const {
     return r;
 }
 
-Eigen::Index autoregression::memory(Eigen::Index limit) const {
+Eigen::Index autoregression::memory(Eigen::Index limit, double forgotten) const {
     if (order() == 0) {
         return 0;
     }
-    Eigen::VectorXd response = Eigen::VectorXd::Zero(limit + order() + 1);
-    response[0] = 1.0;
+    Eigen::VectorXd last = Eigen::VectorXd::Unit(order(), 0);  // response at m - 1, m - 2, ...
     Eigen::Index quiet = 0;
-    for (Eigen::Index m = 1; m < response.size(); ++m) {
-        const Eigen::Index past = std::min(order(), m);
-        response[m] = a.head(past).dot(response.segment(m - past, past).reverse());
-        quiet = std::abs(response[m]) < forgotten ? quiet + 1 : 0;
+    for (Eigen::Index m = 1; m <= limit + order(); ++m) {
+        const double response = a.dot(last);
+        std::copy_backward(last.begin(), last.end() - 1, last.end());
+        last[0] = response;
+        quiet = std::abs(response) < forgotten ? quiet + 1 : 0;
         if (quiet >= order()) {
             return std::min(limit, m - order());
         }
@@ -138,39 +91,24 @@ Eigen::Index samples_of(const std::vector<gapped_series>& segments) {
 }
 
 Eigen::VectorXd autocovariance(const std::vector<gapped_series>& segments, Eigen::Index lags) {
-    const auto samples = static_cast<double>(samples_of(segments));
-    Eigen::VectorXd gamma = Eigen::VectorXd::Zero(lags + 1);
-    std::vector<lattice> errors;
+    lag_moments moments(lags);
     for (const gapped_series& segment : segments) {
-        gamma[0] += segment.value.squaredNorm() / samples;
-        errors.push_back(start_lattice(segment));
+        moments.begin_segment();
+        moments.add(segment);
     }
-    Eigen::VectorXd a(0);
-    double v = gamma[0];
-    for (Eigen::Index p = 1; p <= lags; ++p) {
-        const double reflection = reflect(errors, p, shortest_share * samples);
-        gamma[p] = a.dot(gamma.segment(1, p - 1).reverse()) + reflection * v;
-        a = raised(a, reflection);
-        v *= 1.0 - reflection * reflection;
-    }
-    return samples > 0.0 ? gamma : Eigen::VectorXd::Zero(lags + 1);
+    return moments.autocovariance();
 }
 
-Eigen::VectorXd lagged_pairs(const std::vector<gapped_series>& segments, Eigen::Index lags) {
-    Eigen::VectorXd count = Eigen::VectorXd::Zero(lags + 1);
-    for (const gapped_series& segment : segments) {
-        count += lagged_products(segment.present, lags);
+Eigen::Index highest_order(Eigen::Index samples, std::size_t segments) {
+    if (samples < 1) {
+        return 0;
     }
-    return count;
+    const auto n = static_cast<double>(samples);
+    return static_cast<Eigen::Index>(std::min(10.0 * std::log10(n), n / static_cast<double>(segments) / 4.0));
 }
 
 Eigen::Index highest_order(const std::vector<gapped_series>& segments) {
-    const auto samples = static_cast<double>(samples_of(segments));
-    if (samples < 1.0) {
-        return 0;
-    }
-    const double mean_length = samples / static_cast<double>(segments.size());
-    return static_cast<Eigen::Index>(std::min(10.0 * std::log10(samples), mean_length / 4.0));
+    return highest_order(samples_of(segments), segments.size());
 }
 
 autoregression fit_autoregression(const Eigen::VectorXd& autocovariance, Eigen::Index samples) {
@@ -206,19 +144,37 @@ autoregression fit_autoregression(const Eigen::VectorXd& autocovariance, Eigen::
     return best;
 }
 
-Eigen::VectorXd innovations(const autoregression& model, const gapped_series& segment) {
-    const Eigen::Index p = model.order();
-    Eigen::VectorXd filled = segment.value;
-    Eigen::VectorXd eps = Eigen::VectorXd::Zero(std::max(filled.size() - p, Eigen::Index{0}));
-    for (Eigen::Index k = p; k < filled.size(); ++k) {
-        const double predicted = model.a.dot(filled.segment(k - p, p).reverse());
-        if (segment.present[k] > 0.0) {
-            eps[k - p] = filled[k] - predicted;
+innovation_filter::innovation_filter(autoregression model) : model_(std::move(model)) {}
+
+void innovation_filter::begin_segment() {
+    filled_.resize(0);
+}
+
+Eigen::VectorXd innovation_filter::next(const gapped_series& piece) {
+    const Eigen::Index p = model_.order();
+    const Eigen::Index before = filled_.size();
+    Eigen::VectorXd filled(before + piece.value.size());
+    filled << filled_, piece.value;
+    Eigen::VectorXd eps = Eigen::VectorXd::Zero(piece.value.size());
+    for (Eigen::Index k = 0; k < eps.size(); ++k) {
+        const Eigen::Index at = before + k;
+        if (at < p) {
+            continue;
+        }
+        const double predicted = model_.a.dot(filled.segment(at - p, p).reverse());
+        if (piece.present[k] > 0.0) {
+            eps[k] = filled[at] - predicted;
         } else {
-            filled[k] = predicted;
+            filled[at] = predicted;
         }
     }
+    filled_ = filled.tail(std::min(p, filled.size()));
     return eps;
+}
+
+Eigen::VectorXd innovations(const autoregression& model, const gapped_series& segment) {
+    const Eigen::Index known = std::max(segment.value.size() - model.order(), Eigen::Index{0});
+    return innovation_filter(model).next(segment).tail(known);
 }
 
 Eigen::MatrixXd innovation_responses(const autoregression& model, const Eigen::MatrixXd& X, Eigen::Index tail) {
@@ -246,18 +202,23 @@ Eigen::MatrixXd covariance_times(const autoregression& model, const Eigen::Matri
     return model.innovation * series.bottomRows(n);
 }
 
-Eigen::VectorXd lagged_products(const Eigen::MatrixXd& X, Eigen::Index lags) {
+Eigen::VectorXd lagged_products(const Eigen::MatrixXd& X, Eigen::Index lags, Eigen::Index first, Eigen::Index count) {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(lags + 1);
     for (Eigen::Index c = 0; c < X.cols(); ++c) {
         const auto x = X.col(c);
         if (x.isZero(0.0)) {
             continue;
         }
-        for (Eigen::Index l = 0; l <= std::min(lags, X.rows() - 1); ++l) {
-            sum[l] += x.head(X.rows() - l).dot(x.tail(X.rows() - l));
+        for (Eigen::Index l = 0; l <= std::min(lags, X.rows() - 1 - first); ++l) {
+            const Eigen::Index pairs = std::min(count, X.rows() - l - first);
+            sum[l] += x.segment(first, pairs).dot(x.segment(first + l, pairs));
         }
     }
     return sum;
+}
+
+Eigen::VectorXd lagged_products(const Eigen::MatrixXd& X, Eigen::Index lags) {
+    return lagged_products(X, lags, 0, X.rows());
 }
 
 }  // namespace idim

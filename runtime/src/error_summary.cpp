@@ -2,6 +2,7 @@
 #include <stdexcept>
 
 #include "idim/estimate.hpp"
+#include "weighted_fit.hpp"
 
 namespace idim {
 
@@ -15,30 +16,52 @@ double relative(double residual_squared, double Y_squared) {
     return std::sqrt(residual_squared / Y_squared);
 }
 
+/// What one joint's rows leave.
+struct joint_squares {
+    double residual = 0.0;
+    double Y = 0.0;
+    Eigen::Index rows = 0;
+};
+
+error_summary summary_of(const std::vector<joint_squares>& joints) {
+    error_summary summary;
+    double residual = 0.0;
+    double Y = 0.0;
+    for (const joint_squares& joint : joints) {
+        const double rms = joint.rows > 0 ? std::sqrt(joint.residual / static_cast<double>(joint.rows)) : 0.0;
+        summary.joints.push_back({rms, relative(joint.residual, joint.Y)});
+        residual += joint.residual;
+        Y += joint.Y;
+    }
+    summary.relative_error = relative(residual, Y);
+    return summary;
+}
+
 }  // namespace
+
+error_summary errors(const joint_triangles& joints, const Eigen::VectorXd& chi) {
+    std::vector<joint_squares> squares;
+    for (int j = 0; j < joints.joints(); ++j) {
+        squares.push_back({joints.residual_square(j, chi), joints.torque_square(j), joints.rows(j)});
+    }
+    return summary_of(squares);
+}
 
 error_summary errors(const observation& rows, const Eigen::VectorXd& chi) {
     if (chi.size() != rows.n_base) {
         throw std::invalid_argument("errors: chi has " + std::to_string(chi.size()) + " entries, the rows have " +
                                     std::to_string(rows.n_base) + " columns");
     }
-    error_summary summary;
-    double all_residual = 0.0;
-    double all_Y = 0.0;
+    std::vector<joint_squares> squares;
     for (int j = 0; j < rows.dof; ++j) {
-        double residual = 0.0;
-        double Y = 0.0;
+        joint_squares joint{0.0, 0.0, rows.rows(j)};
         for (const observation_block& block : rows.blocks) {
-            residual += (block.Y[j] - block.W[j] * chi).squaredNorm();
-            Y += block.Y[j].squaredNorm();
+            joint.residual += (block.Y[j] - block.W[j] * chi).squaredNorm();
+            joint.Y += block.Y[j].squaredNorm();
         }
-        const double samples = static_cast<double>(rows.rows(j));
-        summary.joints.push_back({samples > 0.0 ? std::sqrt(residual / samples) : 0.0, relative(residual, Y)});
-        all_residual += residual;
-        all_Y += Y;
+        squares.push_back(joint);
     }
-    summary.relative_error = relative(all_residual, all_Y);
-    return summary;
+    return summary_of(squares);
 }
 
 }  // namespace idim

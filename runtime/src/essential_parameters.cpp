@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <memory>
 
 #include "idim/estimate.hpp"
 #include "idim/input_error.hpp"
@@ -14,12 +16,12 @@ namespace {
 
 /// Rows that count once the residual's correlation is taken off, sum_j rows_j / correlation_length_j, less the
 /// parameters.
-double effective_freedom(const observation& rows, const estimate& full) {
+double effective_freedom(const joint_triangles& joints, const estimate& full) {
     double effective = 0.0;
-    for (int j = 0; j < rows.dof; ++j) {
-        effective += static_cast<double>(rows.rows(j)) / full.correlation_length[j];
+    for (int j = 0; j < joints.joints(); ++j) {
+        effective += static_cast<double>(joints.rows(j)) / full.correlation_length[static_cast<std::size_t>(j)];
     }
-    return std::max(effective - static_cast<double>(rows.n_base), 1.0);
+    return std::max(effective - static_cast<double>(joints.columns()), 1.0);
 }
 
 /// The full model under the constraint that chi is zero at `dropped`, without another pass over the rows: the estimate
@@ -59,20 +61,35 @@ double p_value_of(double f, std::size_t dropped, double freedom) {
     return boost::math::cdf(boost::math::complement(distribution, f));
 }
 
-/// The rows of a model that has only the columns `kept`.
-observation with_columns(const observation& rows, const std::vector<int>& kept) {
-    observation reduced;
-    reduced.dof = rows.dof;
-    reduced.n_base = static_cast<int>(kept.size());
-    for (const observation_block& block : rows.blocks) {
-        observation_block columns{block.file, block.rate, block.t, block.kept, {}, block.Y};
-        for (const Eigen::MatrixXd& W : block.W) {
-            columns.W.push_back(W(Eigen::all, kept));
-        }
-        reduced.blocks.push_back(std::move(columns));
+/// Rows of which a model has only some columns.
+class fewer_columns : public row_source {
+  public:
+    fewer_columns(const row_source& rows, const std::vector<int>& kept) : rows_(rows), kept_(kept) {}
+
+    int dof() const override { return rows_.dof(); }
+    int n_base() const override { return static_cast<int>(kept_.size()); }
+    std::size_t logs() const override { return rows_.logs(); }
+    Eigen::Index rows(int joint) const override { return rows_.rows(joint); }
+    void visit(Eigen::Index margin, const std::function<void(const row_part&)>& use) const override {
+        rows_.visit(margin, [&](const row_part& part) {
+            observation_block block{part.block.file, part.block.rate, part.block.t, part.block.kept, {}, part.block.Y};
+            for (const Eigen::MatrixXd& W : part.block.W) {
+                block.W.emplace_back(W(Eigen::all, kept_));
+            }
+            use({block, part.first, part.count, part.reach, part.begins_log});
+        });
     }
-    return reduced;
-}
+    std::unique_ptr<series_source> residual(const Eigen::VectorXd& chi,
+                                            const std::vector<double>& joint_weight) const override {
+        Eigen::VectorXd all = Eigen::VectorXd::Zero(rows_.n_base());
+        all(kept_) = chi;
+        return rows_.residual(all, joint_weight);
+    }
+
+  private:
+    const row_source& rows_;
+    const std::vector<int>& kept_;
+};
 
 /// Position in `kept` of the largest relative deviation [IV 19].
 std::size_t least_certain(const constrained& fit, const std::vector<int>& kept) {
@@ -92,13 +109,14 @@ std::size_t least_certain(const constrained& fit, const std::vector<int>& kept) 
 
 }  // namespace
 
-essential_parameters find_essential(const observation& rows, const estimate& full, double significance) {
-    if (full.chi.size() != rows.n_base) {
+essential_parameters find_essential(const row_source& rows, const joint_triangles& joints, const estimate& full,
+                                    double significance) {
+    if (full.chi.size() != rows.n_base()) {
         throw data_error("essential parameters need a full model: " + full.message);
     }
-    const double freedom = effective_freedom(rows, full);
+    const double freedom = effective_freedom(joints, full);
     essential_parameters result;
-    for (int c = 0; c < rows.n_base; ++c) {
+    for (int c = 0; c < rows.n_base(); ++c) {
         result.kept.push_back(c);
     }
     constrained reduced = constrain(full, {});
@@ -117,14 +135,21 @@ essential_parameters find_essential(const observation& rows, const estimate& ful
         result.dropped = std::move(dropped);
         result.kept.erase(candidate);
     }
-    result.chi = Eigen::VectorXd::Zero(rows.n_base);
-    result.std = Eigen::VectorXd::Zero(rows.n_base);
+    result.chi = Eigen::VectorXd::Zero(rows.n_base());
+    result.std = Eigen::VectorXd::Zero(rows.n_base());
     if (!result.kept.empty()) {
-        const estimate refit = weighted_fit(with_columns(rows, result.kept), weights_of(full.joint_deviation));
+        const estimate refit = weighted_fit(fewer_columns(rows, result.kept), joints.with_columns(result.kept),
+                                            weights_of(full.joint_deviation));
         result.chi(result.kept) = refit.chi;
         result.std(result.kept) = refit.deviations();
     }
-    result.residual = errors(rows, result.chi);
+    result.residual = errors(joints, result.chi);
+    return result;
+}
+
+essential_parameters find_essential(const observation& rows, const estimate& full, double significance) {
+    essential_parameters result = find_essential(resident_rows(rows), triangles_of(rows), full, significance);
+    result.residual = errors(rows, result.chi);  // to the last digit, where the rows are at hand
     return result;
 }
 

@@ -7,7 +7,8 @@
 
 #include "idim/filtered_samples.hpp"
 #include "idim/input_error.hpp"
-#include "idim/power_spectrum.hpp"
+#include "idim/stored_log.hpp"
+#include "motion_spectra.hpp"
 #include "uniform_time.hpp"
 
 // How the filter is chosen.
@@ -29,67 +30,13 @@ constexpr double energy_share = 0.999;
 // EMPS, TX40 and Panda; 1e-5 left the simulated inertia of joint 2 the least biased (0.09 % against 0.13 %).
 constexpr double droop = 1e-5;
 constexpr double least_rise = 4.0;  // of the acceleration spectrum above its valley, for a noise floor to count as seen
-constexpr double largest_cutoff = 0.4;     // of the rate: 0.8 of the Nyquist frequency
-constexpr Eigen::Index shortest_log = 64;  // samples, for segments of 16
-constexpr double decade = 10.0;            // [CWLS III]: cut-off a decade above the highest frequency of the motion
-
-/// Spectra of one joint in one log.
-struct joint_spectra {
-    power_spectrum acceleration;
-    power_spectrum torque;  ///< empty without torque
-    double lowest = 0.0;    ///< [Hz] below it the position has its energy, or the spectrum no resolution
-};
+constexpr double largest_cutoff = 0.4;  // of the rate: 0.8 of the Nyquist frequency
+constexpr double decade = 10.0;         // [CWLS III]: cut-off a decade above the highest frequency of the motion
 
 /// Cut-off over band edge of a zero-phase Butterworth filter whose |H|^2 = 1 / (1 + (f / f_c)^(2 order)) loses `droop`
 /// there.
 double cutoff_over_band(int order) {
     return std::pow((1.0 - droop) / droop, 0.5 / order);
-}
-
-double range(const Eigen::Ref<const Eigen::VectorXd>& q) {
-    return q.maxCoeff() - q.minCoeff();
-}
-
-/// Whether a joint moves, `largest` being the largest range of any joint: a held one drifts by less than held_range
-/// of that, or shows noise alone, whose steps are as large as its spread (von Neumann's ratio, 2 for white noise).
-bool moves(const Eigen::Ref<const Eigen::VectorXd>& q, double largest) {
-    const Eigen::VectorXd step = q.tail(q.size() - 1) - q.head(q.size() - 1);
-    return range(q) > held_range * largest && step.squaredNorm() < 0.1 * (q.array() - q.mean()).square().sum();
-}
-
-joint_spectra spectra_of_joint(const log& data, Eigen::Index joint, double rate) {
-    const Eigen::VectorXd q = data.q.col(joint);
-    const Eigen::Index n = q.size() - 2;
-    const Eigen::VectorXd acceleration = (q.tail(n) - 2.0 * q.segment(1, n) + q.head(n)) * (rate * rate);
-    const Eigen::Index segment = welch_segment(n);
-    const double resolution = rate / static_cast<double>(segment);
-    joint_spectra spectra;
-    spectra.acceleration = welch_spectrum(acceleration, rate, segment);
-    if (data.tau.size() > 0) {
-        spectra.torque = welch_spectrum(data.tau.col(joint), rate, segment);
-    }
-    // Four bins: clear of the main lobe of the Hann window around 0, and a half octave holds at least one bin.
-    spectra.lowest = std::max(energy_frequency(welch_spectrum(q, rate, segment), 0.99, rate), 4.0 * resolution);
-    return spectra;
-}
-
-void append_spectra(const log& data, double rate, std::vector<joint_spectra>& spectra) {
-    if (data.samples() < shortest_log) {
-        throw input_error(
-            {data.file, 0, ""},
-            fmt::format("{} samples, choosing the filter from the data needs at least {}; give the cut-off and the "
-                        "decimation",
-                        data.samples(), shortest_log));
-    }
-    double largest = 0.0;
-    for (Eigen::Index joint = 0; joint < data.q.cols(); ++joint) {
-        largest = std::max(largest, range(data.q.col(joint)));
-    }
-    for (Eigen::Index joint = 0; joint < data.q.cols(); ++joint) {
-        if (moves(data.q.col(joint), largest)) {
-            spectra.push_back(spectra_of_joint(data, joint, rate));
-        }
-    }
 }
 
 /// Mean density within a quarter octave on both sides of `f`.
@@ -217,23 +164,16 @@ filter_choice unfiltered(const filter_request& request, double rate) {
     return choice;
 }
 
-}  // namespace
-
-double filter_choice::band(double rate) const {
-    return 0.8 * rate / (2.0 * decimation);
-}
-
-filter_choice choose_filter(const std::vector<log>& logs, const filter_request& request) {
+filter_choice choose_filter(const std::vector<readable_log>& logs, const filter_request& request) {
     if (logs.empty()) {
         throw input_error({"", 0, ""}, "no log was given");
     }
     std::vector<named_rate> rates;
     std::vector<joint_spectra> spectra;
-    for (const log& data : logs) {
-        const log uniform = resample_uniform(data);
-        rates.push_back({data.file, uniform_rate(uniform.t, {data.file, 0, "t"})});
+    for (const readable_log& data : logs) {
+        rates.push_back({data.file, data.rate});
         if (!request.cutoff) {
-            append_spectra(uniform, rates.back().rate, spectra);
+            append_spectra(data, spectra);
         }
     }
     require_common_rate(rates);
@@ -264,6 +204,29 @@ filter_choice choose_filter(const std::vector<log>& logs, const filter_request& 
                                 request.decimation ? "given" : "chosen to keep the band the filter leaves alone",
                                 choice.band(rate), speed_reason(choice.minimum_speed));
     return choice;
+}
+
+}  // namespace
+
+double filter_choice::band(double rate) const {
+    return 0.8 * rate / (2.0 * decimation);
+}
+
+filter_choice choose_filter(const std::vector<log>& logs, const filter_request& request) {
+    std::vector<readable_log> readable;
+    for (const log& data : logs) {
+        readable.push_back(readable_in_memory(data));
+    }
+    return choose_filter(readable, request);
+}
+
+filter_choice choose_filter(const std::vector<stored_log>& logs, const filter_request& request) {
+    std::vector<readable_log> readable;
+    for (const stored_log& data : logs) {
+        readable.push_back({data.file(), data.samples(), data.rate(),
+                            [&data](Eigen::Index first, Eigen::Index count) { return data.part(first, count); }});
+    }
+    return choose_filter(readable, request);
 }
 
 }  // namespace idim

@@ -78,7 +78,7 @@ void add_robust_deviations(const observation& rows, const joint_series& residual
             segment /= slope;
         }
     }
-    add_deviations(rows, bread_weight, factor(rows, uniform_weights(rows, bread_weight)), score, result);
+    add_deviations(rows, bread_weight, factor(triangles_of(rows), bread_weight), score, result);
 }
 
 /// Iteratively reweighted least squares from `start`, Huber's loss, scale per joint by the median.
@@ -114,20 +114,26 @@ estimate reweighted(const observation& rows, weighted_solution start) {
 
 }  // namespace
 
-estimate least_squares(const observation& rows, least_squares_method method) {
-    const std::vector<double> unweighted(static_cast<std::size_t>(rows.dof), 1.0);
+estimate least_squares(const row_source& rows, const joint_triangles& joints, least_squares_method method) {
+    const std::vector<double> unweighted(static_cast<std::size_t>(joints.joints()), 1.0);
     if (method == least_squares_method::ols) {
-        return weighted_fit(rows, unweighted);
+        return weighted_fit(rows, joints, unweighted);
     }
-    const estimate ordinary = solve_weighted(rows, unweighted).fit;
+    estimate ordinary = solve_weighted(joints, unweighted).fit;
+    return ordinary.chi.size() == 0 ? ordinary : weighted_fit(rows, joints, weights_of(ordinary.joint_deviation));
+}
+
+estimate least_squares(const observation& rows, least_squares_method method) {
+    check_shapes(rows);
+    const joint_triangles joints = triangles_of(rows);
+    if (method != least_squares_method::irls) {
+        return least_squares(resident_rows(rows), joints, method);
+    }
+    estimate ordinary = solve_weighted(joints, std::vector<double>(static_cast<std::size_t>(rows.dof), 1.0)).fit;
     if (ordinary.chi.size() == 0) {
         return ordinary;
     }
-    const std::vector<double> weight = weights_of(ordinary.joint_deviation);
-    if (method == least_squares_method::wls) {
-        return weighted_fit(rows, weight);
-    }
-    weighted_solution start = solve_weighted(rows, weight);
+    weighted_solution start = solve_weighted(joints, weights_of(ordinary.joint_deviation));
     return start.fit.chi.size() > 0 ? reweighted(rows, std::move(start)) : start.fit;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -219,44 +220,6 @@ class row_parser {
     const std::vector<int>& slots_;
 };
 
-/// Slot 0 holds the time.
-void check_time(const log_line_reader& lines, const number_table& table) {
-    const size_t last = table.values.size() - table.width;
-    if (last == 0) {
-        return;
-    }
-    const double before = table.values[last - table.width];
-    const double now = table.values[last];
-    if (!(now > before)) {
-        throw input_error({lines.file(), lines.line(), "t"}, "time must increase strictly, but " + shortest_text(now) +
-                                                                 " follows " + shortest_text(before));
-    }
-}
-
-number_table read_rows(log_line_reader& lines, const log_header& header, const std::vector<int>& slots, size_t width) {
-    number_table table;
-    table.width = width;
-    const row_parser parser(lines, header.names(), slots);
-    std::string_view line;
-    int blank_line = 0;
-    while (lines.next(line)) {
-        if (trim(line).empty()) {
-            blank_line = blank_line == 0 ? lines.line() : blank_line;
-            continue;
-        }
-        if (blank_line != 0) {
-            throw input_error({lines.file(), blank_line, ""}, "blank line before the last row");
-        }
-        table.values.resize(table.values.size() + width);
-        parser.parse(line, &table.values[table.values.size() - width]);
-        check_time(lines, table);
-    }
-    if (table.values.empty()) {
-        throw input_error({lines.file(), 0, ""}, "no rows after the header");
-    }
-    return table;
-}
-
 /// A signal of the log and the file columns it comes from.
 struct named_signal {
     Eigen::MatrixXd log::*signal;
@@ -303,42 +266,107 @@ std::vector<named_signal> find_signals(const log_header& header, const log_colum
 
 using row_major_table = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
 
-}  // namespace
-
-log read_log(const std::string& file, const log_columns& columns) {
-    log_line_reader lines(file);
+log_header read_header(log_line_reader& lines, const log_columns& columns) {
     std::string_view line;
     if (!lines.next(line)) {
-        throw input_error({file, 0, ""}, "the file is empty");
+        throw input_error({lines.file(), 0, ""}, "the file is empty");
     }
-    const log_header header(file, line, columns);
-    std::vector<int> slots(header.names().size(), not_there);
-    slots[header.require_time()] = 0;
-    const std::vector<named_signal> signals = find_signals(header, columns, file);
-    size_t width = 1;
-    for (const named_signal& source : signals) {
-        for (const int column : source.columns) {
-            slots[column] = static_cast<int>(width++);
-        }
-    }
-    const number_table numbers = read_rows(lines, header, slots, width);
+    return {lines.file(), line, columns};
+}
 
-    log data;
-    data.file = file;
-    const row_major_table table(numbers.values.data(), numbers.rows(), static_cast<Eigen::Index>(width));
-    data.t = table.col(0);
-    Eigen::Index next = 1;
-    for (const named_signal& source : signals) {
-        const auto count = static_cast<Eigen::Index>(source.columns.size());
-        if (count > 0) {
-            data.*source.signal = table.middleCols(next, count);
-            next += count;
+/// A log that is being read.
+class open_log {
+  public:
+    open_log(const std::string& file, const log_columns& columns)
+        : lines_(file),
+          header_(read_header(lines_, columns)),
+          slots_(header_.names().size(), not_there),
+          parser_(lines_, header_.names(), slots_) {
+        slots_[header_.require_time()] = 0;
+        signals_ = find_signals(header_, columns, file);
+        for (const named_signal& source : signals_) {
+            for (const int column : source.columns) {
+                slots_[column] = static_cast<int>(width_++);
+            }
+        }
+        if (all_gains_known(columns, header_.dof())) {
+            drive_gain_ = Eigen::Map<const Eigen::VectorXd>(columns.drive_gain.data(), header_.dof());
         }
     }
-    if (data.tau.size() == 0 && data.v.size() > 0 && all_gains_known(columns, header.dof())) {
-        data.tau = data.v * Eigen::Map<const Eigen::VectorXd>(columns.drive_gain.data(), header.dof()).asDiagonal();
+
+    log next(Eigen::Index most) {
+        const number_table numbers = read_rows(most);
+        const row_major_table table(numbers.values.data(), numbers.rows(), static_cast<Eigen::Index>(width_));
+        log data;
+        data.file = lines_.file();
+        data.t = table.col(0);
+        Eigen::Index first = 1;
+        for (const named_signal& source : signals_) {
+            const auto count = static_cast<Eigen::Index>(source.columns.size());
+            if (count > 0) {
+                data.*source.signal = table.middleCols(first, count);
+                first += count;
+            }
+        }
+        if (data.tau.size() == 0 && data.v.size() > 0 && drive_gain_.size() > 0) {
+            data.tau = data.v * drive_gain_.asDiagonal();
+        }
+        return data;
     }
-    return data;
+
+  private:
+    number_table read_rows(Eigen::Index most) {
+        number_table table;
+        table.width = width_;
+        std::string_view line;
+        while (table.rows() < most && lines_.next(line)) {
+            if (trim(line).empty()) {
+                blank_line_ = blank_line_ == 0 ? lines_.line() : blank_line_;
+                continue;
+            }
+            if (blank_line_ != 0) {
+                throw input_error({lines_.file(), blank_line_, ""}, "blank line before the last row");
+            }
+            table.values.resize(table.values.size() + width_);
+            double* const row = &table.values[table.values.size() - width_];
+            parser_.parse(line, row);
+            check_time(row[0]);
+        }
+        if (table.values.empty() && !started_) {
+            throw input_error({lines_.file(), 0, ""}, "no rows after the header");
+        }
+        return table;
+    }
+
+    void check_time(double now) {
+        if (started_ && !(now > last_time_)) {
+            throw input_error(
+                {lines_.file(), lines_.line(), "t"},
+                "time must increase strictly, but " + shortest_text(now) + " follows " + shortest_text(last_time_));
+        }
+        started_ = true;
+        last_time_ = now;
+    }
+
+    log_line_reader lines_;
+    log_header header_;
+    std::vector<int> slots_;  ///< place of every file column in a row of numbers, 0 the time
+    row_parser parser_;
+    std::vector<named_signal> signals_;
+    size_t width_ = 1;
+    Eigen::VectorXd drive_gain_;
+    int blank_line_ = 0;
+    bool started_ = false;
+    double last_time_ = 0.0;
+};
+
+}  // namespace
+
+log_reader::log_reader(const std::string& file, const log_columns& columns)
+    : next_([open = std::make_shared<open_log>(file, columns)](Eigen::Index most) { return open->next(most); }) {}
+
+log read_log(const std::string& file, const log_columns& columns) {
+    return log_reader(file, columns).next(std::numeric_limits<Eigen::Index>::max());
 }
 
 void write_log(const std::string& file, const log& data) {

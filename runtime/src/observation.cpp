@@ -11,17 +11,12 @@
 #include "idim/input_error.hpp"
 #include "idim/recorded_states.hpp"
 #include "idim/zero_phase_filter.hpp"
+#include "motion_filter.hpp"
+#include "rest_search.hpp"
 #include "uniform_time.hpp"
 
 namespace idim {
 namespace {
-
-/// Ten times the dwell of a reversal at the top acceleration within 1 % of the top speed: longer is a rest, or
-/// sticking.
-// 2026-11-22: settled while looking at measured logs. Without the rule TX40 (at rest for its last 1.5 s) is at 12.03 %
-// (wls). Leaving out all slow rows, and 0.1, gave 10.6 % but moved EMPS's offset by 1 %; 0.2 and 0.4 leave EMPS alone,
-// TX40 10.7 and 10.9 %. To be checked on robots that had no part in this.
-constexpr double rest_share = 0.2;
 
 void check_log(const idim_model_interface& model, const filtered_samples& samples, const filter_choice& choice) {
     if (samples.q.cols() != model.dof) {
@@ -33,14 +28,7 @@ void check_log(const idim_model_interface& model, const filtered_samples& sample
             {samples.file, 0, "temp1"},
             fmt::format("this column is missing, the model of {} depends on the temperature", model.robot));
     }
-    if (choice.decimation > 1) {
-        const Eigen::Index needed = padding(decimation_filter(choice.decimation)) + 1;
-        if (samples.samples() < needed) {
-            throw input_error({samples.file, 0, ""},
-                              fmt::format("{} samples are left by the filter, the decimation needs at least {}",
-                                          samples.samples(), needed));
-        }
-    }
+    check_decimation(samples.file, samples.samples(), choice);
 }
 
 /// Names the first element of a block of regressors that is no number; column = joint * b + parameter.
@@ -128,10 +116,10 @@ Eigen::MatrixXd recorded_regressor(const idim_model_interface& model, const reco
     return sampled;
 }
 
-/// Joints whose full-rate rows are held at once: as many as fit in 256 MiB, so that a long log costs repeated
-/// evaluations of the regressor instead of memory.
+/// Joints whose full-rate rows are held at once: as many as fit in 32 MiB, which the allocator keeps instead of giving
+/// them back to the system, so that a long log costs repeated evaluations of the regressor instead of memory.
 int joints_at_once(const idim_model_interface& model, Eigen::Index samples) {
-    constexpr double budget = 256.0 * 1024.0 * 1024.0;
+    constexpr double budget = 32.0 * 1024.0 * 1024.0;
     const double one_joint = static_cast<double>(samples) * model.n_base * sizeof(double);
     return static_cast<int>(std::clamp(budget / one_joint, 1.0, static_cast<double>(model.dof)));
 }
@@ -153,6 +141,16 @@ void check_selection(const row_selection& kept, int joints, Eigen::Index samples
     }
 }
 
+/// Rows `kept` of some columns: copied as a block where they follow one another, which is much faster.
+Eigen::MatrixXd rows_of(const Eigen::MatrixXd& W, const std::vector<Eigen::Index>& kept, Eigen::Index column,
+                        Eigen::Index count) {
+    const auto size = static_cast<Eigen::Index>(kept.size());
+    if (size > 0 && kept.back() - kept.front() + 1 == size) {
+        return W.block(kept.front(), column, size, count);
+    }
+    return W(kept, Eigen::seqN(column, count));
+}
+
 observation_block observe_log(const idim_model_interface& model, const filtered_samples& samples,
                               const filter_choice& choice, const row_selection& kept, const Eigen::VectorXd& chi) {
     observation_block block;
@@ -167,8 +165,7 @@ observation_block observe_log(const idim_model_interface& model, const filtered_
         const int count = std::min(step, model.dof - first);
         const Eigen::MatrixXd W = decimate(recorded_regressor(model, states, first, count), choice.decimation);
         for (int joint = 0; joint < count; ++joint) {
-            const auto columns = Eigen::seqN(Eigen::Index{joint} * model.n_base, model.n_base);
-            block.W.emplace_back(W(kept[first + joint], columns));
+            block.W.push_back(rows_of(W, kept[first + joint], Eigen::Index{joint} * model.n_base, model.n_base));
         }
     }
     block.Y.resize(static_cast<std::size_t>(model.dof));
@@ -181,30 +178,13 @@ observation_block observe_log(const idim_model_interface& model, const filtered_
     return block;
 }
 
-/// Places of all samples but those of rests: runs of samples slower than `part` of the top speed that last longer than
-/// `rest_share` of the time in which the top acceleration reaches the top speed, and than two samples. A reversal at
-/// that acceleration passes through the slow range in 2 `part` of this time.
-std::vector<Eigen::Index> moving_rows(const Eigen::Ref<const Eigen::VectorXd>& speed, double part) {
-    const Eigen::Index n = speed.size();
-    const double top_speed = speed.cwiseAbs().maxCoeff();
-    const double top_change = n > 1 ? (speed.tail(n - 1) - speed.head(n - 1)).cwiseAbs().maxCoeff() : 0.0;
-    const double longest = std::max(2.0, top_change > 0.0 ? rest_share * top_speed / top_change : 0.0);  // in samples
-    std::vector<Eigen::Index> places;
-    for (Eigen::Index k = 0; k < n;) {
-        Eigen::Index end = k;
-        while (end < n && std::abs(speed[end]) < part * top_speed) {
-            ++end;
-        }
-        const bool rests = static_cast<double>(end - k) > longest;
-        for (; !rests && k < end; ++k) {
-            places.push_back(k);
-        }
-        k = end;
-        if (k < n) {
-            places.push_back(k++);
-        }
-    }
-    return places;
+/// Places of all samples but those of rests.
+std::vector<Eigen::Index> moving_rows(const Eigen::VectorXd& speed, double part) {
+    speed_extremes extremes;
+    extremes.add(speed);
+    rest_search search(extremes, part);
+    search.add(speed);
+    return rows_between(search.finish(), 0, speed.size());
 }
 
 /// Leaves out rows whose state, as long ago as the torque is late, is not in the log.

@@ -62,21 +62,30 @@ Eigen::MatrixXd interpolate(const Eigen::VectorXd& t, const Eigen::MatrixXd& sig
 
 }  // namespace
 
+Eigen::Index grid_samples(double duration, double period) {
+    return static_cast<Eigen::Index>(std::floor(duration / period + 1e-9)) + 1;
+}
+
+log interpolated(const log& data, const Eigen::VectorXd& grid) {
+    log uniform;
+    uniform.file = data.file;
+    uniform.t = grid;
+    const std::vector<Eigen::Index> interval = intervals(data.t, grid);
+    for (const auto signal : {&log::q, &log::tau, &log::v, &log::qr, &log::qd, &log::qdd, &log::temp}) {
+        uniform.*signal = interpolate(data.t, data.*signal, grid, interval);
+    }
+    return uniform;
+}
+
 log resample_uniform(const log& data, double jitter_tolerance) {
     if (data.samples() < 3 || is_uniform(data.t, jitter_tolerance)) {
         return data;
     }
     const double period = median_period(data.t);
-    // The last sample belongs to the grid even if rounding puts it just before its grid time.
-    const auto samples = static_cast<Eigen::Index>(std::floor(data.duration() / period + 1e-9)) + 1;
-    log uniform;
-    uniform.file = data.file;
-    uniform.t = data.t[0] + Eigen::ArrayXd::LinSpaced(samples, 0.0, static_cast<double>(samples - 1)) * period;
-    const std::vector<Eigen::Index> interval = intervals(data.t, uniform.t);
-    for (const auto signal : {&log::q, &log::tau, &log::v, &log::qr, &log::qd, &log::qdd, &log::temp}) {
-        uniform.*signal = interpolate(data.t, data.*signal, uniform.t, interval);
-    }
-    return uniform;
+    const Eigen::Index samples = grid_samples(data.duration(), period);
+    const Eigen::VectorXd grid =
+        data.t[0] + Eigen::ArrayXd::LinSpaced(samples, 0.0, static_cast<double>(samples - 1)) * period;
+    return interpolated(data, grid);
 }
 
 }  // namespace idim

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "row_source.hpp"
 #include "stacked_qr.hpp"
 
 namespace idim {
@@ -41,5 +42,11 @@ sandwich robust_covariance(const observation& rows, const std::vector<double>& j
 sandwich robust_covariance(const observation& instruments, const std::vector<double>& joint_weight,
                            const Eigen::MatrixXd& instrument_inverse, const Eigen::MatrixXd& to_parameters,
                            const joint_series& residual);
+
+/// The same of rows that come in parts, in five passes over them. Correlations that reach over the end of a part count
+/// as far as 1e-12 of them.
+sandwich robust_covariance(const row_source& instruments, const std::vector<double>& joint_weight,
+                           const Eigen::MatrixXd& instrument_inverse, const Eigen::MatrixXd& to_parameters,
+                           const series_source& residual);
 
 }  // namespace idim

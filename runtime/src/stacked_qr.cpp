@@ -4,6 +4,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace idim {
 
@@ -11,6 +12,7 @@ namespace {
 
 constexpr double rank_tolerance = 1e-10;
 constexpr double null_space_tolerance = 1e-5;
+constexpr Eigen::Index rows_in_cache = 512;  // reflections go through all rows once for each column
 
 /// Upper triangle of A, min(rows, cols) x cols.
 Eigen::MatrixXd triangle_of(Eigen::MatrixXd A) {
@@ -19,19 +21,27 @@ Eigen::MatrixXd triangle_of(Eigen::MatrixXd A) {
     return A.topRows(height).triangularView<Eigen::Upper>();
 }
 
-/// Triangle of [W Y] of one joint in one block. A joint does not feel the links before it: its columns of zeros stay
+/// Triangle of [W Y] of some rows of one joint. A joint does not feel the links before it: its columns of zeros stay
 /// out.
-Eigen::MatrixXd triangle_of(const Eigen::MatrixXd& W, const Eigen::VectorXd& Y, const Eigen::VectorXd& weight) {
+Eigen::MatrixXd triangle_of(const Eigen::Ref<const Eigen::MatrixXd>& W, const Eigen::Ref<const Eigen::VectorXd>& Y) {
     std::vector<Eigen::Index> felt;
     for (Eigen::Index c = 0; c < W.cols(); ++c) {
         if (!W.col(c).isZero(0.0)) {
             felt.push_back(c);
         }
     }
-    Eigen::MatrixXd A(W.rows(), static_cast<Eigen::Index>(felt.size()) + 1);
-    A << W(Eigen::all, felt), Y;
-    A = weight.asDiagonal() * A;
-    const Eigen::MatrixXd small = triangle_of(std::move(A));
+    const Eigen::Index columns = static_cast<Eigen::Index>(felt.size()) + 1;
+    Eigen::MatrixXd small(0, columns);
+    for (Eigen::Index first = 0; first < W.rows(); first += rows_in_cache) {
+        const Eigen::Index count = std::min(rows_in_cache, W.rows() - first);
+        Eigen::MatrixXd A(small.rows() + count, columns);
+        A.topRows(small.rows()) = small;
+        for (Eigen::Index c = 0; c + 1 < columns; ++c) {
+            A.col(c).tail(count) = W.col(felt[static_cast<std::size_t>(c)]).segment(first, count);
+        }
+        A.col(columns - 1).tail(count) = Y.segment(first, count);
+        small = triangle_of(std::move(A));
+    }
 
     felt.push_back(W.cols());
     Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(small.rows(), W.cols() + 1);
@@ -77,16 +87,58 @@ std::vector<double> stacked_qr::parameter_share() const {
     return share;
 }
 
-stacked_qr factor(const observation& rows, const joint_series& weights) {
-    const Eigen::Index b = rows.n_base;
-    const Eigen::MatrixXd nothing = Eigen::MatrixXd::Zero(0, b + 1);
-    Eigen::MatrixXd all = combine(nothing, nothing);
-    stacked_qr qr;
-    for (std::size_t j = 0; j < weights.size(); ++j) {
-        Eigen::MatrixXd joint = combine(nothing, nothing);
-        for (std::size_t i = 0; i < rows.blocks.size(); ++i) {
-            joint = combine(joint, triangle_of(rows.blocks[i].W[j], rows.blocks[i].Y[j], weights[j][i]));
+joint_triangles::joint_triangles(int joints, int columns)
+    : triangles_(static_cast<std::size_t>(joints), Eigen::MatrixXd::Zero(columns + 1, columns + 1)),
+      rows_(static_cast<std::size_t>(joints), 0) {}
+
+void joint_triangles::add(std::size_t joint, const Eigen::Ref<const Eigen::MatrixXd>& W,
+                          const Eigen::Ref<const Eigen::VectorXd>& Y) {
+    triangles_[joint] = combine(triangles_[joint], triangle_of(W, Y));
+    rows_[joint] += W.rows();
+}
+
+Eigen::Index joint_triangles::rows() const {
+    return std::accumulate(rows_.begin(), rows_.end(), Eigen::Index{0});
+}
+
+bool joint_triangles::finite() const {
+    return std::all_of(triangles_.begin(), triangles_.end(), [](const Eigen::MatrixXd& T) { return T.allFinite(); });
+}
+
+double joint_triangles::residual_square(int joint, const Eigen::VectorXd& chi) const {
+    const Eigen::Index b = columns();
+    return (of(joint).col(b) - of(joint).leftCols(b) * chi).squaredNorm();
+}
+
+double joint_triangles::torque_square(int joint) const {
+    return of(joint).col(columns()).squaredNorm();
+}
+
+joint_triangles joint_triangles::with_columns(const std::vector<int>& kept) const {
+    joint_triangles reduced(joints(), static_cast<int>(kept.size()));
+    for (std::size_t j = 0; j < triangles_.size(); ++j) {
+        reduced.add(j, triangles_[j](Eigen::all, kept), triangles_[j].col(columns()));
+    }
+    reduced.rows_ = rows_;
+    return reduced;
+}
+
+joint_triangles triangles_of(const observation& rows) {
+    joint_triangles joints(rows.dof, rows.n_base);
+    for (const observation_block& block : rows.blocks) {
+        for (std::size_t j = 0; j < block.W.size(); ++j) {
+            joints.add(j, block.W[j], block.Y[j]);
         }
+    }
+    return joints;
+}
+
+stacked_qr factor(const joint_triangles& joints, const std::vector<double>& joint_weight) {
+    const Eigen::Index b = joints.columns();
+    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(b + 1, b + 1);
+    stacked_qr qr;
+    for (int j = 0; j < joints.joints(); ++j) {
+        const Eigen::MatrixXd joint = joint_weight[static_cast<std::size_t>(j)] * joints.of(j);
         qr.joints.push_back(joint.topLeftCorner(b, b));
         all = combine(all, joint);
     }
@@ -104,14 +156,15 @@ stacked_qr factor(const observation& rows, const joint_series& weights) {
     return qr;
 }
 
-joint_series uniform_weights(const observation& rows, const std::vector<double>& joint_weight) {
-    joint_series weights(joint_weight.size());
-    for (std::size_t j = 0; j < joint_weight.size(); ++j) {
-        for (const observation_block& block : rows.blocks) {
-            weights[j].push_back(Eigen::VectorXd::Constant(block.Y[j].size(), joint_weight[j]));
+stacked_qr factor(const observation& rows, const joint_series& weights) {
+    joint_triangles joints(static_cast<int>(weights.size()), rows.n_base);
+    for (std::size_t j = 0; j < weights.size(); ++j) {
+        for (std::size_t i = 0; i < rows.blocks.size(); ++i) {
+            const auto weight = weights[j][i].asDiagonal();
+            joints.add(j, weight * rows.blocks[i].W[j], weight * rows.blocks[i].Y[j]);
         }
     }
-    return weights;
+    return factor(joints, std::vector<double>(weights.size(), 1.0));
 }
 
 rank_report examine(const stacked_qr& qr) {

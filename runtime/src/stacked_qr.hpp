@@ -29,6 +29,39 @@ struct stacked_qr {
     std::vector<double> parameter_share() const;
 };
 
+/// The triangles of [W Y] of every joint, which hold all that least squares with any weights of the joints asks of the
+/// rows: |Y - W chi| of a joint is |T [-chi; 1]|.
+class joint_triangles {
+  public:
+    joint_triangles(int joints, int columns);
+
+    /// Takes in rows of one joint.
+    void add(std::size_t joint, const Eigen::Ref<const Eigen::MatrixXd>& W, const Eigen::Ref<const Eigen::VectorXd>& Y);
+
+    int joints() const { return static_cast<int>(triangles_.size()); }
+    int columns() const { return static_cast<int>(triangles_.front().cols()) - 1; }
+    /// Upper, (b + 1) x (b + 1).
+    const Eigen::MatrixXd& of(int joint) const { return triangles_[static_cast<std::size_t>(joint)]; }
+    /// Rows taken in.
+    Eigen::Index rows(int joint) const { return rows_[static_cast<std::size_t>(joint)]; }
+    Eigen::Index rows() const;
+    /// Whether all elements were finite.
+    bool finite() const;
+    /// |Y - W chi|^2 of a joint.
+    double residual_square(int joint, const Eigen::VectorXd& chi) const;
+    /// |Y|^2 of a joint.
+    double torque_square(int joint) const;
+    /// Those of the columns `kept` alone.
+    joint_triangles with_columns(const std::vector<int>& kept) const;
+
+  private:
+    std::vector<Eigen::MatrixXd> triangles_;
+    std::vector<Eigen::Index> rows_;
+};
+
+/// Of rows in memory.
+joint_triangles triangles_of(const observation& rows);
+
 /// What the singular values of the factor say.
 struct rank_report {
     int rank = 0;
@@ -41,8 +74,8 @@ struct rank_report {
 /// Factors the rows, row k of joint j in block i multiplied by weights[j][i][k].
 stacked_qr factor(const observation& rows, const joint_series& weights);
 
-/// Weights that are the same for all rows of a joint.
-joint_series uniform_weights(const observation& rows, const std::vector<double>& joint_weight);
+/// The same with all rows of a joint multiplied by its weight.
+stacked_qr factor(const joint_triangles& joints, const std::vector<double>& joint_weight);
 
 /// A singular value of the scaled columns counts as zero below 1e-10 of the largest: filtered columns that depend on
 /// one another agree to about 1e-13, while a parameter known through a direction of 1e-10 would have no digit left at

@@ -21,11 +21,15 @@ bool is_uniform(const Eigen::VectorXd& t, double tolerance) {
     return (t.array() - grid).abs().maxCoeff() <= tolerance * period;
 }
 
-double uniform_rate(const Eigen::VectorXd& t, const input_location& where) {
-    if (t.size() < 2) {
-        throw input_error(where, fmt::format("{} samples, at least 2 are needed", t.size()));
+double uniform_rate(Eigen::Index samples, double duration, const input_location& where) {
+    if (samples < 2) {
+        throw input_error(where, fmt::format("{} samples, at least 2 are needed", samples));
     }
-    return static_cast<double>(t.size() - 1) / (t[t.size() - 1] - t[0]);
+    return static_cast<double>(samples - 1) / duration;
+}
+
+double uniform_rate(const Eigen::VectorXd& t, const input_location& where) {
+    return uniform_rate(t.size(), t.size() > 1 ? t[t.size() - 1] - t[0] : 0.0, where);
 }
 
 void require_common_rate(const std::vector<named_rate>& logs) {

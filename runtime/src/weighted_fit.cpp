@@ -14,44 +14,59 @@ namespace idim {
 
 namespace {
 
-bool all_finite(const observation& rows) {
-    return std::all_of(rows.blocks.begin(), rows.blocks.end(), [](const observation_block& block) {
-        return std::all_of(block.W.begin(), block.W.end(), [](const Eigen::MatrixXd& W) { return W.allFinite(); }) &&
-               std::all_of(block.Y.begin(), block.Y.end(), [](const Eigen::VectorXd& Y) { return Y.allFinite(); });
-    });
-}
-
 /// Why these rows cannot be solved whatever the weights, or nothing.
-std::string obstacle(const observation& rows) {
-    if (rows.n_base == 0) {
+std::string obstacle(const joint_triangles& joints) {
+    if (joints.columns() == 0) {
         return "the model has no parameter to identify";
     }
-    if (rows.rows() == 0) {
+    if (joints.rows() == 0) {
         return "there are no rows to identify from";
     }
-    if (!all_finite(rows)) {
+    if (!joints.finite()) {
         return "a row holds a value that is not finite";
     }
     return {};
 }
 
 /// An estimate that says why there is no chi, its residual that of a model which predicts nothing.
-estimate failure(const observation& rows, const rank_report& rank, const std::string& message) {
+estimate failure(const joint_triangles& joints, const rank_report& rank, const std::string& message) {
     estimate result;
     result.rank = rank.rank;
     result.condition_number = rank.condition_number;
     result.scaled_condition_number = rank.scaled_condition_number;
     result.not_excited = rank.not_excited;
-    result.samples = rows.rows();
-    result.joint_deviation.assign(static_cast<std::size_t>(rows.dof), 0.0);
-    result.correlation_length.assign(static_cast<std::size_t>(rows.dof), 1.0);
-    if (all_finite(rows)) {
-        result.residual = errors(rows, Eigen::VectorXd::Zero(rows.n_base));
+    result.samples = joints.rows();
+    result.joint_deviation.assign(static_cast<std::size_t>(joints.joints()), 0.0);
+    result.correlation_length.assign(static_cast<std::size_t>(joints.joints()), 1.0);
+    if (joints.finite()) {
+        result.residual = errors(joints, Eigen::VectorXd::Zero(joints.columns()));
     } else {
-        result.residual.joints.resize(static_cast<std::size_t>(rows.dof));
+        result.residual.joints.resize(static_cast<std::size_t>(joints.joints()));
     }
     result.message = message;
     return result;
+}
+
+double deviation_of(double residual_square, Eigen::Index rows, double parameter_share) {
+    // At least one degree of freedom: rows that determine as many parameters leave a residual of zero anyway.
+    return std::sqrt(residual_square / std::max(static_cast<double>(rows) - parameter_share, 1.0));
+}
+
+std::vector<double> joint_deviations(const joint_triangles& joints, const Eigen::VectorXd& chi,
+                                     const std::vector<double>& parameter_share) {
+    std::vector<double> deviation;
+    for (int j = 0; j < joints.joints(); ++j) {
+        deviation.push_back(
+            deviation_of(joints.residual_square(j, chi), joints.rows(j), parameter_share[static_cast<std::size_t>(j)]));
+    }
+    return deviation;
+}
+
+void fill_deviations(sandwich robust, double score_square, Eigen::Index rows, const stacked_qr& qr, estimate& result) {
+    result.covariance = std::move(robust.covariance);
+    result.correlation_length = std::move(robust.correlation_length);
+    const double freedom = static_cast<double>(rows - qr.R.cols());
+    result.std_white = std::sqrt(score_square / freedom) * qr.inverse().rowwise().norm();
 }
 
 void check_places(const observation_block& block, std::size_t joints) {
@@ -97,9 +112,7 @@ std::vector<double> joint_deviations(const observation& rows, const joint_series
         for (const Eigen::VectorXd& segment : residual[j]) {
             sum += segment.squaredNorm();
         }
-        // At least one degree of freedom: rows that determine as many parameters leave a residual of zero anyway.
-        const double freedom = std::max(static_cast<double>(rows.rows(j)) - parameter_share[j], 1.0);
-        deviation.push_back(std::sqrt(sum / freedom));
+        deviation.push_back(deviation_of(sum, rows.rows(j), parameter_share[static_cast<std::size_t>(j)]));
     }
     return deviation;
 }
@@ -135,37 +148,32 @@ std::vector<double> weights_of(const std::vector<double>& joint_deviation) {
 
 void add_deviations(const observation& rows, const std::vector<double>& joint_weight, const stacked_qr& qr,
                     const joint_series& score, estimate& result) {
-    sandwich robust = robust_covariance(rows, joint_weight, qr, score);
-    result.covariance = std::move(robust.covariance);
-    result.correlation_length = std::move(robust.correlation_length);
     double sum = 0.0;
     for (const std::vector<Eigen::VectorXd>& segments : score) {
         for (const Eigen::VectorXd& segment : segments) {
             sum += segment.squaredNorm();
         }
     }
-    const double freedom = static_cast<double>(rows.rows() - rows.n_base);
-    result.std_white = std::sqrt(sum / freedom) * qr.inverse().rowwise().norm();
+    fill_deviations(robust_covariance(rows, joint_weight, qr, score), sum, rows.rows(), qr, result);
 }
 
-weighted_solution solve_weighted(const observation& rows, const std::vector<double>& joint_weight) {
-    check_shapes(rows);
-    if (const std::string problem = obstacle(rows); !problem.empty()) {
-        return {failure(rows, {}, problem), {}};
+weighted_solution solve_weighted(const joint_triangles& joints, const std::vector<double>& joint_weight) {
+    if (const std::string problem = obstacle(joints); !problem.empty()) {
+        return {failure(joints, {}, problem), {}};
     }
-    stacked_qr qr = factor(rows, uniform_weights(rows, joint_weight));
+    const int b = joints.columns();
+    stacked_qr qr = factor(joints, joint_weight);
     const rank_report rank = examine(qr);
-    if (rank.rank < rows.n_base) {
-        return {failure(rows, rank,
+    if (rank.rank < b) {
+        return {failure(joints, rank,
                         fmt::format("{} rows excite only {} of {} parameters; {} do not move or cannot be told apart",
-                                    rows.rows(), rank.rank, rows.n_base, rank.not_excited.size())),
+                                    joints.rows(), rank.rank, b, rank.not_excited.size())),
                 std::move(qr)};
     }
-    if (rows.rows() == rows.n_base) {
-        return {
-            failure(rows, rank,
-                    fmt::format("{} rows for {} parameters leave nothing to judge them by", rows.rows(), rows.n_base)),
-            std::move(qr)};
+    if (joints.rows() == b) {
+        return {failure(joints, rank,
+                        fmt::format("{} rows for {} parameters leave nothing to judge them by", joints.rows(), b)),
+                std::move(qr)};
     }
     estimate fit;
     fit.chi = qr.solve();
@@ -173,20 +181,38 @@ weighted_solution solve_weighted(const observation& rows, const std::vector<doub
     fit.rank = rank.rank;
     fit.condition_number = rank.condition_number;
     fit.scaled_condition_number = rank.scaled_condition_number;
-    fit.samples = rows.rows();
-    fit.joint_deviation = joint_deviations(rows, residuals(rows, fit.chi), qr.parameter_share());
-    fit.residual = errors(rows, fit.chi);
-    fit.message = fmt::format("{} parameters from {} rows, all excited", rows.n_base, rows.rows());
+    fit.samples = joints.rows();
+    fit.joint_deviation = joint_deviations(joints, fit.chi, qr.parameter_share());
+    fit.residual = errors(joints, fit.chi);
+    fit.message = fmt::format("{} parameters from {} rows, all excited", b, joints.rows());
     return {std::move(fit), std::move(qr)};
 }
 
-estimate weighted_fit(const observation& rows, const std::vector<double>& joint_weight) {
-    weighted_solution solution = solve_weighted(rows, joint_weight);
-    if (solution.fit.chi.size() > 0) {
-        add_deviations(rows, joint_weight, solution.qr, scaled(residuals(rows, solution.fit.chi), joint_weight),
-                       solution.fit);
+weighted_solution solve_weighted(const observation& rows, const std::vector<double>& joint_weight) {
+    check_shapes(rows);
+    return solve_weighted(triangles_of(rows), joint_weight);
+}
+
+estimate weighted_fit(const row_source& rows, const joint_triangles& joints, const std::vector<double>& joint_weight) {
+    weighted_solution solution = solve_weighted(joints, joint_weight);
+    estimate& fit = solution.fit;
+    if (fit.chi.size() > 0) {
+        double square = 0.0;
+        for (int j = 0; j < joints.joints(); ++j) {
+            const double weight = joint_weight[static_cast<std::size_t>(j)];
+            square += weight * weight * joints.residual_square(j, fit.chi);
+        }
+        const Eigen::MatrixXd inverse = solution.qr.inverse();
+        const auto score = rows.residual(fit.chi, joint_weight);
+        fill_deviations(robust_covariance(rows, joint_weight, inverse, inverse, *score), square, joints.rows(),
+                        solution.qr, fit);
     }
-    return std::move(solution.fit);
+    return std::move(fit);
+}
+
+estimate weighted_fit(const observation& rows, const std::vector<double>& joint_weight) {
+    check_shapes(rows);
+    return weighted_fit(resident_rows(rows), triangles_of(rows), joint_weight);
 }
 
 }  // namespace idim

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -99,6 +100,21 @@ std::vector<Eigen::Index> nonzero_columns(const signal_columns& signals) {
 
 Eigen::Index padding(const second_order_sections& filter) {
     return Eigen::Index{3} * (filter.order + 1);
+}
+
+Eigen::Index settling(const second_order_sections& filter) {
+    constexpr double forgotten = 1e-16;
+    std::vector<section_state> state = steady_state(filter, lane::Constant(1.0));
+    Eigen::Index samples = 0;
+    Eigen::Index quiet = 0;
+    // As long as the slowest oscillation may pass through zero, quiet has to last.
+    while (quiet <= samples / 2) {
+        lane sample = lane::Zero();
+        advance(filter, state, sample);
+        quiet = std::abs(sample[0]) < forgotten ? quiet + 1 : 0;
+        ++samples;
+    }
+    return samples - quiet;
 }
 
 Eigen::MatrixXd zero_phase_filter(const second_order_sections& filter, const signal_columns& signals,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "lag_moments.hpp"
 #include "support/scara_rows.hpp"
 
 namespace idim {
@@ -93,9 +94,13 @@ TEST(Autocovariance, StaysThatOfTheNoiseWhenRowsAreMissing) {
 
 TEST(LaggedPairs, AreThoseOfPresentSamples) {
     const auto second = [](Eigen::Index k) { return k == 1; };
-    const Eigen::VectorXd pairs =
-        lagged_pairs({with_gaps(Eigen::VectorXd::Ones(5), second), complete_series(Eigen::Vector2d::Ones())}, 3);
-    EXPECT_EQ(pairs, Eigen::Vector4d(4.0 + 2.0, 2.0 + 1.0, 2.0, 1.0));  // samples 0 2 3 4 and 0 1
+    lag_moments moments(3);
+    for (const gapped_series& segment :
+         {with_gaps(Eigen::VectorXd::Ones(5), second), complete_series(Eigen::Vector2d::Ones())}) {
+        moments.begin_segment();
+        moments.add(segment);
+    }
+    EXPECT_EQ(moments.pairs(), Eigen::Vector4d(4.0 + 2.0, 2.0 + 1.0, 2.0, 1.0));  // samples 0 2 3 4 and 0 1
 }
 
 TEST(Autoregression, RecoversTheCoefficientsOfAnExactAutocovariance) {

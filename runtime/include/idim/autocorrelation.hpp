@@ -32,8 +32,8 @@ struct autoregression {
     Eigen::Index order() const { return a.size(); }
     /// Autocorrelation at lags 0..lags, [lags + 1].
     Eigen::VectorXd autocorrelation(Eigen::Index lags) const;
-    /// Rows after which the response to one innovation stays below 1e-4 of it, at most `limit`.
-    Eigen::Index memory(Eigen::Index limit) const;
+    /// Rows after which the response to one innovation stays below `forgotten` of it, at most `limit`.
+    Eigen::Index memory(Eigen::Index limit, double forgotten = 1e-4) const;
     /// Integrated autocorrelation time [rows], >= 1: the larger of 1 + 2 sum rho(l), by which the variance of a mean
     /// grows, and 1 + 2 sum rho(l)^2, which also sees an oscillation whose rho(l) sum to nothing. At most `limit`.
     double correlation_length(Eigen::Index limit) const;
@@ -47,11 +47,9 @@ struct autoregression {
 /// samples.
 Eigen::VectorXd autocovariance(const std::vector<gapped_series>& segments, Eigen::Index lags);
 
-/// Pairs (k, k + l) of present samples that the segments hold at lags 0..lags, [lags + 1].
-Eigen::VectorXd lagged_pairs(const std::vector<gapped_series>& segments, Eigen::Index lags);
-
 /// Highest order worth trying, 10 log10 of the number of samples [Schwert 1989; the default of R's ar()], but at most a
 /// quarter of the mean segment.
+Eigen::Index highest_order(Eigen::Index samples, std::size_t segments);
 Eigen::Index highest_order(const std::vector<gapped_series>& segments);
 
 /// Yule-Walker fit to the autocovariance at lags 0..highest order of `samples` samples, by Levinson's recursion, order
@@ -60,8 +58,23 @@ Eigen::Index highest_order(const std::vector<gapped_series>& segments);
 /// change from one sample to the next is not white. A series of zeros gives order 0 and no variance.
 autoregression fit_autoregression(const Eigen::VectorXd& autocovariance, Eigen::Index samples);
 
-/// Innovations eps_k of a segment [n - p]; the first p samples have no full past and are left out. Missing samples are
-/// replaced by their prediction: their own innovation is 0, those after a gap hold the error of that prediction too.
+/// Innovations of a series that comes in pieces. Missing samples are replaced by their prediction: their own innovation
+/// is 0, those after a gap hold the error of that prediction too.
+class innovation_filter {
+  public:
+    explicit innovation_filter(autoregression model);
+
+    /// A new segment begins: what follows has nothing before it.
+    void begin_segment();
+    /// Of every sample of the next piece; 0 for the first p of a segment, which have no full past.
+    Eigen::VectorXd next(const gapped_series& piece);
+
+  private:
+    autoregression model_;
+    Eigen::VectorXd filled_;  ///< the last p samples, where missing as predicted
+};
+
+/// Innovations eps_k of a segment [n - p]; the first p samples have no full past and are left out.
 Eigen::VectorXd innovations(const autoregression& model, const gapped_series& segment);
 
 /// Responses Z of the columns of X (n x b) to one innovation, ((n + tail) x b): with it X' Gamma X = innovation * Z'Z,
@@ -75,5 +88,8 @@ Eigen::MatrixXd covariance_times(const autoregression& model, const Eigen::Matri
 
 /// Sum over columns c of sum_k X(k, c) X(k + l, c) at lags 0..lags, [lags + 1].
 Eigen::VectorXd lagged_products(const Eigen::MatrixXd& X, Eigen::Index lags);
+
+/// The same over the pairs whose earlier row is one of first..first+count-1.
+Eigen::VectorXd lagged_products(const Eigen::MatrixXd& X, Eigen::Index lags, Eigen::Index first, Eigen::Index count);
 
 }  // namespace idim

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,19 @@ struct log_columns {
 /// many columns in a row, text or NaN or infinity in a number, time that does not increase, no rows, `v` without a
 /// drive gain.
 log read_log(const std::string& file, const log_columns& columns);
+
+/// The same block by block, for logs that need not fit into memory.
+class log_reader {
+  public:
+    /// Reads the header. Throws input_error as read_log.
+    log_reader(const std::string& file, const log_columns& columns);
+
+    /// The next rows, at most `most` of them; no samples at the end of the file. Throws input_error as read_log.
+    log next(Eigen::Index most) { return next_(most); }
+
+  private:
+    std::function<log(Eigen::Index)> next_;  ///< holds the open file
+};
 
 /// Writes the non-empty columns of a log as CSV, numbers printed so that they read back exactly. Throws input_error if
 /// the file cannot be written.

@@ -7,6 +7,7 @@
 
 #include "idim/estimate.hpp"
 #include "idim/filtered_samples.hpp"
+#include "idim/motion_source.hpp"
 #include "idim/observation.hpp"
 
 namespace idim {
@@ -33,10 +34,12 @@ struct period_search {
 /// median mismatch is within twice that of the best. Averaged are the last whole periods of the longest stretch over
 /// which the mismatch stays within three times its median (or 0.1 % of the motion): transients, rests and connections
 /// at both ends stay out. There is no part where less than two periods are left, where the mismatch is above 5 %, or
-/// where the given period is no whole number of samples.
+/// where the given period is no whole number of samples. A period is searched for in the first 2^20 samples.
+period_search find_period(const motion_source& motion, std::optional<double> period);
 period_search find_period(const filtered_samples& samples, std::optional<double> period);
 
 /// The average over the periods [CWLS 5], repeated at both ends as far as the decimation reaches.
+filtered_samples average_periods(const motion_source& motion, const periodic_part& part, const filter_choice& choice);
 filtered_samples average_periods(const filtered_samples& samples, const periodic_part& part,
                                  const filter_choice& choice);
 
@@ -60,6 +63,7 @@ struct torque_scatter {
 /// lambda is the part of the spread of S_k about the mean that P periods of normal noise make by themselves (Ledoit and
 /// Wolf 2004, here with the mean as target and in its metric), and at least (n + 2) / (P + n + 1), the weight of the
 /// weakest inverse Wishart prior that has a mean: S_k is singular with P <= n and hardly worth inverting with few more.
+torque_scatter scatter_of(const motion_source& motion, const periodic_part& part, const filter_choice& choice);
 torque_scatter scatter_of(const filtered_samples& samples, const periodic_part& part, const filter_choice& choice);
 
 /// The rows of one period, each sample's block multiplied by the inverse of the Cholesky factor of the covariance of

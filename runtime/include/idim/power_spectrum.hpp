@@ -10,6 +10,23 @@ struct power_spectrum {
     Eigen::ArrayXd density;    ///< [unit^2/Hz]; its integral over the frequency is the variance
 };
 
+/// The average of welch_spectrum over segments that are given one by one.
+class welch_average {
+  public:
+    welch_average(double rate, Eigen::Index segment);
+
+    /// Takes in one segment. Successive ones begin `step` samples apart.
+    void add(const Eigen::Ref<const Eigen::VectorXd>& segment);
+    Eigen::Index step() const { return window_.size() - window_.size() / 2; }
+    power_spectrum spectrum() const;
+
+  private:
+    double rate_;
+    Eigen::VectorXd window_;
+    Eigen::ArrayXd power_;
+    int segments_ = 0;
+};
+
 /// Welch's average of modified periodograms: Hann window, segments of `segment` samples that overlap by half, the mean
 /// of each removed (P. D. Welch, IEEE Trans. Audio Electroacoustics 15(2), 1967). Same as scipy.signal.welch(x, rate,
 /// 'hann', nperseg=segment). Throws std::invalid_argument unless 2 <= segment <= samples.

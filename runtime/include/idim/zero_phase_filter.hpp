@@ -13,6 +13,10 @@ using signal_columns = Eigen::Ref<const Eigen::MatrixXd, 0, Eigen::Stride<Eigen:
 /// sosfiltfilt. A signal must be longer than this.
 Eigen::Index padding(const second_order_sections& filter);
 
+/// Samples after which the filter has forgotten what came before to 1e-16 of it: rows of a part of a signal that lie
+/// further than this from the part's ends are filtered as in the whole signal, to rounding.
+Eigen::Index settling(const second_order_sections& filter);
+
 /// Filters every column forward and backward, so that the phase is zero and the gain |H|^2, and keeps rows 0, stride,
 /// 2 stride, ... The ends are continued by odd reflection and both passes start in the steady state of their first
 /// value: scipy.signal.filtfilt and sosfiltfilt with their defaults (F. Gustafsson, IEEE Trans. Signal Processing

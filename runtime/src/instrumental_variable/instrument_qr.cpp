@@ -71,7 +71,7 @@ std::vector<double> instrument_qr::parameter_share() const {
 
 instrument_qr factor(const observation& rows, const observation& instruments, const std::vector<double>& joint_weight) {
     const observation both = side_by_side(rows, instruments);
-    const stacked_qr all = factor(both, uniform_weights(both, joint_weight));
+    const stacked_qr all = factor(triangles_of(both), joint_weight);
     const Eigen::Index b = rows.n_base;
     instrument_qr result;
     result.R_V = all.R.topLeftCorner(b, b);

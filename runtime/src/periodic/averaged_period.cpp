@@ -1,15 +1,48 @@
+#include <algorithm>
+#include <array>
 #include <utility>
 
 #include "periodic/folded_period.hpp"
 
 namespace idim {
 
-Eigen::MatrixXd mean_period(const Eigen::MatrixXd& signal, const periodic_part& part) {
-    Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(part.period, signal.cols());
-    for (Eigen::Index p = 0; p < part.periods; ++p) {
-        mean += signal.middleRows(part.first + p * part.period, part.period);
+namespace {
+
+void add_to(Eigen::MatrixXd& sum, const Eigen::MatrixXd& signal, Eigen::Index first, const periodic_part& part) {
+    if (sum.size() == 0 && signal.size() > 0) {
+        sum = Eigen::MatrixXd::Zero(part.period, signal.cols());
     }
-    return mean / static_cast<double>(part.periods);
+    if (signal.size() > 0) {
+        sum.middleRows(first, signal.rows()) += signal;
+    }
+}
+
+}  // namespace
+
+filtered_samples mean_period(const motion_source& motion, const periodic_part& part) {
+    constexpr Eigen::Index at_once = Eigen::Index{1} << 14;
+    constexpr std::array signals = {&filtered_samples::q, &filtered_samples::qd, &filtered_samples::qdd,
+                                    &filtered_samples::tau, &filtered_samples::temp};
+    filtered_samples mean;
+    mean.file = motion.file();
+    mean.rate = motion.rate();
+    mean.t.resize(part.period);
+    for (Eigen::Index p = 0; p < part.periods; ++p) {
+        for (Eigen::Index first = 0; first < part.period; first += at_once) {
+            const Eigen::Index count = std::min(at_once, part.period - first);
+            const filtered_samples samples = motion.part(part.first + p * part.period + first, count);
+            if (p == 0) {
+                mean.t.segment(first, count) = samples.t;
+            }
+            for (const auto signal : signals) {
+                add_to(mean.*signal, samples.*signal, first, part);
+            }
+        }
+    }
+    for (const auto signal : signals) {
+        mean.*signal /= static_cast<double>(part.periods);
+    }
+    return mean;
 }
 
 Eigen::Index period_margin(const filter_choice& choice) {
@@ -20,28 +53,28 @@ Eigen::Index rows_in_period(const periodic_part& part, const filter_choice& choi
     return (part.period + choice.decimation - 1) / choice.decimation;
 }
 
-filtered_samples average_periods(const filtered_samples& samples, const periodic_part& part,
-                                 const filter_choice& choice) {
+filtered_samples average_periods(const motion_source& motion, const periodic_part& part, const filter_choice& choice) {
     const Eigen::Index margin = period_margin(choice);
     const Eigen::Index n = part.period + 2 * margin;
     std::vector<Eigen::Index> place;
     for (Eigen::Index k = 0; k < n; ++k) {
         place.push_back(((k - margin) % part.period + part.period) % part.period);
     }
-    const auto average = [&](const Eigen::MatrixXd& signal) {
-        return signal.size() == 0 ? Eigen::MatrixXd() : Eigen::MatrixXd(mean_period(signal, part)(place, Eigen::all));
-    };
-    filtered_samples mean;
-    mean.file = samples.file;
-    mean.rate = samples.rate;
-    const double start = samples.t[part.first] - static_cast<double>(margin) / samples.rate;
-    mean.t = start + Eigen::ArrayXd::LinSpaced(n, 0.0, static_cast<double>(n - 1) / samples.rate);
-    mean.q = average(samples.q);
-    mean.qd = average(samples.qd);
-    mean.qdd = average(samples.qdd);
-    mean.tau = average(samples.tau);
-    mean.temp = average(samples.temp);
+    filtered_samples mean = mean_period(motion, part);
+    const double start = mean.t[0] - static_cast<double>(margin) / mean.rate;
+    mean.t = start + Eigen::ArrayXd::LinSpaced(n, 0.0, static_cast<double>(n - 1) / mean.rate);
+    for (const auto signal : {&filtered_samples::q, &filtered_samples::qd, &filtered_samples::qdd,
+                              &filtered_samples::tau, &filtered_samples::temp}) {
+        if ((mean.*signal).size() > 0) {
+            mean.*signal = Eigen::MatrixXd((mean.*signal)(place, Eigen::all));
+        }
+    }
     return mean;
+}
+
+filtered_samples average_periods(const filtered_samples& samples, const periodic_part& part,
+                                 const filter_choice& choice) {
+    return average_periods(resident_motion(samples), part, choice);
 }
 
 observation rows_of_period(observation rows, const std::vector<periodic_part>& parts, const filter_choice& choice) {

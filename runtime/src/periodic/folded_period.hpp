@@ -4,8 +4,8 @@
 
 namespace idim {
 
-/// Average of a signal over the periods [period x columns].
-Eigen::MatrixXd mean_period(const Eigen::MatrixXd& signal, const periodic_part& part);
+/// Average of the samples over the periods; t is that of the first.
+filtered_samples mean_period(const motion_source& motion, const periodic_part& part);
 
 /// Samples by which an averaged period is repeated at both ends: the response of the decimation filter has died out
 /// after 25 of its rows. A whole number of rows.

@@ -17,22 +17,58 @@ constexpr double as_good = 2.0;             // times the smallest mismatch
 constexpr Eigen::Index windows_per_period = 10;
 constexpr Eigen::Index shortest_period = 16;  // [samples]
 constexpr std::size_t most_candidates = 24;
+constexpr Eigen::Index samples_at_once = Eigen::Index{1} << 15;
+constexpr Eigen::Index samples_searched = Eigen::Index{1} << 20;
 
-/// Positions of the joints that move, mean 0 and mean square 1.
-Eigen::MatrixXd normalised_motion(const Eigen::MatrixXd& q) {
-    const Eigen::VectorXd range = q.colwise().maxCoeff() - q.colwise().minCoeff();
-    std::vector<Eigen::Index> moving;
-    for (Eigen::Index j = 0; j < q.cols(); ++j) {
+/// Positions of the joints that move, mean 0 and mean square 1 over the log.
+class normalised_motion {
+  public:
+    explicit normalised_motion(const motion_source& motion);
+
+    Eigen::Index samples() const { return motion_.samples(); }
+    Eigen::Index joints() const { return static_cast<Eigen::Index>(moving_.size()); }
+    /// Samples first..first+count-1 [count x joints].
+    Eigen::MatrixXd rows(Eigen::Index first, Eigen::Index count) const {
+        const Eigen::MatrixXd q = motion_.part(first, count).q(Eigen::all, moving_);
+        return (q.rowwise() - mean_) * scale_.asDiagonal();
+    }
+
+  private:
+    const motion_source& motion_;
+    std::vector<Eigen::Index> moving_;
+    Eigen::RowVectorXd mean_;
+    Eigen::VectorXd scale_;
+};
+
+/// Calls `use` with successive positions of a log.
+template <typename Use>
+void for_positions(const motion_source& motion, const Use& use) {
+    for (Eigen::Index first = 0; first < motion.samples(); first += samples_at_once) {
+        use(motion.part(first, std::min(samples_at_once, motion.samples() - first)).q);
+    }
+}
+
+normalised_motion::normalised_motion(const motion_source& motion) : motion_(motion) {
+    Eigen::RowVectorXd lowest = motion.part(0, 1).q.row(0);
+    Eigen::RowVectorXd highest = lowest;
+    Eigen::RowVectorXd mean = Eigen::RowVectorXd::Zero(lowest.size());
+    Eigen::RowVectorXd square = mean;
+    const auto n = static_cast<double>(motion.samples());
+    for_positions(motion, [&](const Eigen::MatrixXd& q) {
+        lowest = lowest.cwiseMin(q.colwise().minCoeff());
+        highest = highest.cwiseMax(q.colwise().maxCoeff());
+        mean += q.colwise().sum() / n;
+    });
+    for_positions(motion,
+                  [&](const Eigen::MatrixXd& q) { square += (q.rowwise() - mean).colwise().squaredNorm() / n; });
+    const Eigen::RowVectorXd range = highest - lowest;
+    for (Eigen::Index j = 0; j < range.size(); ++j) {
         if (range[j] > held_range * range.maxCoeff()) {
-            moving.push_back(j);
+            moving_.push_back(j);
         }
     }
-    Eigen::MatrixXd X = q(Eigen::all, moving);
-    X.rowwise() -= X.colwise().mean().eval();
-    for (Eigen::Index j = 0; j < X.cols(); ++j) {
-        X.col(j) /= std::sqrt(X.col(j).squaredNorm() / static_cast<double>(X.rows()));
-    }
-    return X;
+    mean_ = mean(moving_);
+    scale_ = square(moving_).cwiseSqrt().cwiseInverse();
 }
 
 /// sum_k x_k x_{k+L} over all columns at lags 0..lags, by the fast Fourier transform.
@@ -88,13 +124,37 @@ std::vector<Eigen::Index> candidates_of(const Eigen::VectorXd& distance) {
     return lags;
 }
 
+/// Samples of one window.
+Eigen::Index window_width(Eigen::Index lag) {
+    return std::max<Eigen::Index>(1, lag / windows_per_period);
+}
+
+/// Appends the mismatch of samples and those one period later over windows of so many.
+void append_mismatch(const Eigen::Ref<const Eigen::MatrixXd>& X, const Eigen::Ref<const Eigen::MatrixXd>& later,
+                     Eigen::Index width, std::vector<double>& mismatch) {
+    for (Eigen::Index k = 0; k + width <= X.rows(); k += width) {
+        const double square = (later.middleRows(k, width) - X.middleRows(k, width)).squaredNorm();
+        mismatch.push_back(std::sqrt(square / static_cast<double>(2 * width * X.cols())));
+    }
+}
+
 /// Mismatch of two successive periods over windows of a tenth of one, as a part of the motion.
 std::vector<double> window_mismatch(const Eigen::MatrixXd& X, Eigen::Index lag) {
-    const Eigen::Index width = std::max<Eigen::Index>(1, lag / windows_per_period);
     std::vector<double> mismatch;
-    for (Eigen::Index k = 0; k + width + lag <= X.rows(); k += width) {
-        const double square = (X.middleRows(k + lag, width) - X.middleRows(k, width)).squaredNorm();
-        mismatch.push_back(std::sqrt(square / static_cast<double>(2 * width * X.cols())));
+    const Eigen::Index pairs = std::max(X.rows() - lag, Eigen::Index{0});
+    append_mismatch(X.topRows(pairs), X.bottomRows(pairs), window_width(lag), mismatch);
+    return mismatch;
+}
+
+/// The same over a whole log.
+std::vector<double> window_mismatch(const normalised_motion& X, Eigen::Index lag) {
+    const Eigen::Index width = window_width(lag);
+    const Eigen::Index pairs = X.samples() - lag;
+    const Eigen::Index at_once = std::max(samples_at_once / width, Eigen::Index{1}) * width;
+    std::vector<double> mismatch;
+    for (Eigen::Index first = 0; first < pairs; first += at_once) {
+        const Eigen::Index count = std::min(at_once, pairs - first);
+        append_mismatch(X.rows(first, count), X.rows(first + lag, count), width, mismatch);
     }
     return mismatch;
 }
@@ -163,13 +223,13 @@ std::pair<std::size_t, std::size_t> longest_run(const std::vector<double>& misma
 }
 
 /// The whole periods of a log with this period.
-period_search part_with(const Eigen::MatrixXd& X, Eigen::Index period, double rate) {
+period_search part_with(const normalised_motion& X, Eigen::Index period, double rate) {
     const double seconds = static_cast<double>(period) / rate;
-    if (X.rows() < 2 * period) {
+    if (X.samples() < 2 * period) {
         return {{},
                 fmt::format("fewer than two periods: {:.6g} s of motion with a period of {:.6g} s, expected at least "
                             "twice that",
-                            static_cast<double>(X.rows()) / rate, seconds)};
+                            static_cast<double>(X.samples()) / rate, seconds)};
     }
     const std::vector<double> mismatch = window_mismatch(X, period);
     const double typical = median(mismatch);
@@ -180,10 +240,10 @@ period_search part_with(const Eigen::MatrixXd& X, Eigen::Index period, double ra
                             seconds, 100.0 * typical, 100.0 * largest_mismatch)};
     }
     const auto [from, to] = longest_run(mismatch, std::max(transient_factor * typical, smallest_mismatch));
-    const auto width = static_cast<std::size_t>(std::max<Eigen::Index>(1, period / windows_per_period));
+    const auto width = static_cast<std::size_t>(window_width(period));
     const auto begin = static_cast<Eigen::Index>(from * width);
     // The last window stands for the rest of the log, too short for one of its own.
-    const Eigen::Index end = to == mismatch.size() ? X.rows() : static_cast<Eigen::Index>(to * width) + period;
+    const Eigen::Index end = to == mismatch.size() ? X.samples() : static_cast<Eigen::Index>(to * width) + period;
     periodic_part part;
     part.period = period;
     part.periods = (end - begin) / period;
@@ -194,40 +254,46 @@ period_search part_with(const Eigen::MatrixXd& X, Eigen::Index period, double ra
                             seconds, static_cast<double>(end - begin) / rate)};
     }
     part.first = end - part.periods * period;
-    part.after = X.rows() - end;
+    part.after = X.samples() - end;
     part.mismatch = typical;
     return {part, {}};
 }
 
 }  // namespace
 
-period_search find_period(const filtered_samples& samples, std::optional<double> period) {
-    const Eigen::MatrixXd X = normalised_motion(samples.q);
-    if (X.cols() == 0) {
+period_search find_period(const motion_source& motion, std::optional<double> period) {
+    const normalised_motion X(motion);
+    const double rate = motion.rate();
+    if (X.joints() == 0) {
         return {{}, "no joint moves, so that nothing repeats"};
     }
     if (period) {
-        const double length = *period * samples.rate;
+        const double length = *period * rate;
         if (!(length >= static_cast<double>(shortest_period))) {
             return {{},
                     fmt::format("a period of {:.6g} s is shorter than {} samples at {:.6g} Hz", *period,
-                                shortest_period, samples.rate)};
+                                shortest_period, rate)};
         }
-        const double drift = std::abs(length - std::round(length)) * static_cast<double>(X.rows()) / length;
-        if (drift > 0.5 && length < static_cast<double>(X.rows())) {
+        const double drift = std::abs(length - std::round(length)) * static_cast<double>(X.samples()) / length;
+        if (drift > 0.5 && length < static_cast<double>(X.samples())) {
             return {{},
                     fmt::format("a period of {:.9g} s is {:.3f} samples at {:.6g} Hz, expected a whole number", *period,
-                                length, samples.rate)};
+                                length, rate)};
         }
-        const double most = 2.0 * static_cast<double>(X.rows());  // longer ones are too long anyway
-        return part_with(X, static_cast<Eigen::Index>(std::round(std::min(length, most))), samples.rate);
+        const double most = 2.0 * static_cast<double>(X.samples());  // longer ones are too long anyway
+        return part_with(X, static_cast<Eigen::Index>(std::round(std::min(length, most))), rate);
     }
-    const Eigen::Index half = X.rows() / 2;
-    const std::optional<Eigen::Index> lag = half > shortest_period ? best_lag(X, half) : std::nullopt;
-    return lag ? part_with(X, *lag, samples.rate)
+    const Eigen::Index searched = std::min(X.samples(), samples_searched);
+    const Eigen::Index half = searched / 2;
+    const std::optional<Eigen::Index> lag = half > shortest_period ? best_lag(X.rows(0, searched), half) : std::nullopt;
+    return lag ? part_with(X, *lag, rate)
                : period_search{{},
                                fmt::format("nothing repeats: no lag up to half of {:.6g} s finds the positions again",
-                                           static_cast<double>(X.rows()) / samples.rate)};
+                                           static_cast<double>(searched) / rate)};
+}
+
+period_search find_period(const filtered_samples& samples, std::optional<double> period) {
+    return find_period(resident_motion(samples), period);
 }
 
 }  // namespace idim

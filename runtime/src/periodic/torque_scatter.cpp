@@ -14,27 +14,25 @@ constexpr double smallest_joint = 1e-6;    // of the largest joint's, as in weig
 
 /// Torque of one period less its average, decimated on the rows of the average; the neighbouring periods lead the
 /// filter in and out where there are any.
-Eigen::MatrixXd deviation_of(const Eigen::MatrixXd& deviation, Eigen::Index p, const periodic_part& part,
-                             const filter_choice& choice) {
+Eigen::MatrixXd deviation_of(const motion_source& motion, const Eigen::MatrixXd& mean, Eigen::Index p,
+                             const periodic_part& part, const filter_choice& choice) {
     const Eigen::Index margin = period_margin(choice);
     const Eigen::Index before = p * part.period;
     const Eigen::Index lead = std::min(margin, before / choice.decimation * choice.decimation);
     const Eigen::Index tail = std::min(margin, (part.periods - 1 - p) * part.period);
-    const Eigen::MatrixXd around = deviation.middleRows(before - lead, lead + part.period + tail);
+    Eigen::MatrixXd around = motion.part(part.first + before - lead, lead + part.period + tail).tau;
+    for (Eigen::Index k = 0; k < around.rows(); ++k) {
+        around.row(k) -= mean.row((before - lead + k) % part.period);
+    }
     return decimate(around, choice.decimation).middleRows(lead / choice.decimation, rows_in_period(part, choice));
 }
 
-std::vector<Eigen::MatrixXd> deviations_of(const Eigen::MatrixXd& tau, const periodic_part& part,
-                                           const filter_choice& choice) {
-    const Eigen::MatrixXd mean = mean_period(tau, part);
-    Eigen::MatrixXd deviation = tau.middleRows(part.first, part.period * part.periods);
-    for (Eigen::Index p = 0; p < part.periods; ++p) {
-        deviation.middleRows(p * part.period, part.period) -= mean;
-    }
+std::vector<Eigen::MatrixXd> deviations_of(const motion_source& motion, const Eigen::MatrixXd& mean,
+                                           const periodic_part& part, const filter_choice& choice) {
     std::vector<Eigen::MatrixXd> periods;
-    Eigen::MatrixXd left = Eigen::MatrixXd::Zero(rows_in_period(part, choice), tau.cols());
+    Eigen::MatrixXd left = Eigen::MatrixXd::Zero(rows_in_period(part, choice), mean.cols());
     for (Eigen::Index p = 0; p < part.periods; ++p) {
-        periods.push_back(deviation_of(deviation, p, part, choice));
+        periods.push_back(deviation_of(motion, mean, p, part, choice));
         left += periods.back();
     }
     // The ends of the first and the last period are filtered otherwise than those of the others.
@@ -108,13 +106,18 @@ void fill_covariance(torque_scatter& scatter) {
 
 }  // namespace
 
-torque_scatter scatter_of(const filtered_samples& samples, const periodic_part& part, const filter_choice& choice) {
+torque_scatter scatter_of(const motion_source& motion, const periodic_part& part, const filter_choice& choice) {
+    const Eigen::MatrixXd mean = mean_period(motion, part).tau;
     torque_scatter scatter;
-    scatter.deviations = deviations_of(samples.tau, part, choice);
+    scatter.deviations = deviations_of(motion, mean, part, choice);
     fill_covariance(scatter);
-    const Eigen::VectorXd size = mean_period(samples.tau, part).cwiseAbs().colwise().maxCoeff();
+    const Eigen::VectorXd size = mean.cwiseAbs().colwise().maxCoeff();
     scatter.scatters = (scatter.rms.array() > smallest_scatter * size.array()).any();
     return scatter;
+}
+
+torque_scatter scatter_of(const filtered_samples& samples, const periodic_part& part, const filter_choice& choice) {
+    return scatter_of(resident_motion(samples), part, choice);
 }
 
 torque_scatter without_period(torque_scatter scatter, std::size_t p) {

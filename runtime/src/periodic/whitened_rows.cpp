@@ -85,8 +85,8 @@ observation whiten(observation rows, const std::vector<torque_scatter>& scatter)
 
 void restore_units(const observation& rows, estimate& fit) {
     fit.residual = errors(rows, fit.chi);
-    fit.joint_deviation = joint_deviations(rows, residuals(rows, fit.chi),
-                                           factor(rows, uniform_weights(rows, ones(rows.dof))).parameter_share());
+    fit.joint_deviation =
+        joint_deviations(rows, residuals(rows, fit.chi), factor(triangles_of(rows), ones(rows.dof)).parameter_share());
 }
 
 estimate fit_whitened(const observation& rows, const observation& whitened) {
@@ -108,7 +108,7 @@ Eigen::VectorXd scatter_deviations(const observation& rows, const std::vector<to
                 weights[i] = without_period(scatter[i], p);
             }
             const observation whitened = whiten(rows, weights);
-            const Eigen::MatrixXd root = factor(whitened, uniform_weights(rows, ones(rows.dof))).inverse();
+            const Eigen::MatrixXd root = factor(triangles_of(whitened), ones(rows.dof)).inverse();
             const observation torques = whiten(deviated(rows, i, scatter[i].deviations[p]), {weights[i]});
             variance += (root * (root.transpose() * normal_side(torques))).cwiseAbs2() / (periods * (periods - 1.0));
         }

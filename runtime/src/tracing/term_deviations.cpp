@@ -92,7 +92,7 @@ std::vector<Eigen::Index> regular_columns(const stacked_qr& qr, const rank_repor
 
 Eigen::VectorXd deviations_of(observation rows) {
     const std::vector<double> ones(static_cast<std::size_t>(rows.dof), 1.0);
-    stacked_qr qr = factor(rows, uniform_weights(rows, ones));
+    stacked_qr qr = factor(triangles_of(rows), ones);
     Eigen::VectorXd deviation = Eigen::VectorXd::Constant(rows.n_base, std::nan(""));
     const std::vector<Eigen::Index> kept = regular_columns(qr, examine(qr));
     for (observation_block& block : rows.blocks) {
@@ -101,7 +101,7 @@ Eigen::VectorXd deviations_of(observation rows) {
         }
     }
     rows.n_base = static_cast<int>(kept.size());
-    qr = factor(rows, uniform_weights(rows, ones));
+    qr = factor(triangles_of(rows), ones);
     const joint_series residual = residuals(rows, Eigen::VectorXd::Zero(rows.n_base));
     deviation(kept) = robust_covariance(rows, ones, qr, residual).covariance.diagonal().cwiseSqrt();
     return deviation;
