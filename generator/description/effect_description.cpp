@@ -162,7 +162,8 @@ std::string law_of(const effect_description& effect) {
     static const std::map<effect_kind, std::string> kinds = {
         {effect_kind::delay, "torque(t - Td)"},
         {effect_kind::gain, "(1 + Ke)*torque"},
-        {effect_kind::elasticity, "tau_rigid = K*(q of the motor - q of the link) + D*(qd of the motor - qd of the link)"},
+        {effect_kind::elasticity,
+         "tau_rigid = K*(q of the motor - q of the link) + D*(qd of the motor - qd of the link)"},
         {effect_kind::tilt,
          "gravity turned by tilt_x about x, then by tilt_y about y, then by tilt_z about z of the base"},
         {effect_kind::payload, "ten inertial parameters at the link from t0 to t1"}};

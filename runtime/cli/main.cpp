@@ -38,8 +38,9 @@ int run(const idim::cli::action& chosen) {
 
 int main(int argc, char** argv) {
     using namespace idim::cli;
-    // Models are many small objects, data are matrices of some megabytes, and both come and go: memory is taken from the
-    // system in few pieces and kept instead of given back every time, which costs more than what is computed with them.
+    // Models are many small objects, data are matrices of some megabytes, and both come and go: memory is taken from
+    // the system in few pieces and kept instead of given back every time, which costs more than what is computed with
+    // them.
     constexpr int kept_bytes = 1 << 26;
     mallopt(M_TOP_PAD, 1 << 22);
     mallopt(M_MMAP_THRESHOLD, kept_bytes / 2);
