@@ -4,12 +4,14 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace idim {
 
 namespace {
 
 constexpr double least_damping_ratio = 0.01;
+constexpr Eigen::Index shortest = 4;  // samples of a motion
 
 /// x'' + c x' + w^2 x = f, f straight between samples.
 struct mode {
@@ -58,12 +60,16 @@ Eigen::VectorXd stiffnesses(const std::vector<soft_transmission>& soft) {
     return K;
 }
 
+Eigen::VectorXd dampings(const std::vector<soft_transmission>& soft) {
+    Eigen::VectorXd D(static_cast<Eigen::Index>(soft.size()));
+    std::transform(soft.begin(), soft.end(), D.begin(), [](const soft_transmission& t) { return t.damping; });
+    return D;
+}
+
 /// Modes of links that swing behind motors held still.
 class swing_modes {
   public:
-    explicit swing_modes(const std::vector<soft_transmission>& soft) : K_(stiffnesses(soft)), D_(K_.size()) {
-        std::transform(soft.begin(), soft.end(), D_.begin(), [](const soft_transmission& t) { return t.damping; });
-    }
+    explicit swing_modes(const std::vector<soft_transmission>& soft) : K_(stiffnesses(soft)), D_(dampings(soft)) {}
 
     /// For the inertia M [s x s]; false if it is not positive definite.
     bool take(const Eigen::MatrixXd& M) {
@@ -109,18 +115,44 @@ class swing_modes {
     std::vector<mode> modes_;
 };
 
+/// Twist and its rate as a motion much slower than the swing begins it: K twist = F - D F'/K - M F''/K, with the
+/// derivatives of a cubic through samples a quarter of the slowest swing apart. What is not so would swing freely at
+/// first.
+std::pair<Eigen::VectorXd, Eigen::VectorXd> slow_start(const swing_dynamics& dynamics,
+                                                       const std::vector<soft_transmission>& soft, double rate) {
+    const auto s = static_cast<Eigen::Index>(soft.size());
+    const Eigen::Index n = dynamics.forcing.rows();
+    const Eigen::MatrixXd M = dynamics.inertia.row(0).reshaped(s, s);
+    const Eigen::VectorXd K = stiffnesses(soft);
+    const Eigen::VectorXd D =
+        dampings(soft).cwiseMax(2.0 * least_damping_ratio * K.cwiseProduct(M.diagonal()).cwiseSqrt());
+    const double swing_time = 2.0 * M_PI * std::sqrt(M.diagonal().cwiseQuotient(K).maxCoeff());
+    const auto apart = static_cast<Eigen::Index>(std::lround(0.25 * swing_time * rate));
+    const Eigen::Index step = std::clamp<Eigen::Index>(apart, 1, (n - 1) / 3);
+    const double h = static_cast<double>(step) / rate;
+    const auto F = [&](Eigen::Index k) { return Eigen::VectorXd(dynamics.forcing.row(k * step)); };
+    const Eigen::VectorXd first = (-11.0 * F(0) + 18.0 * F(1) - 9.0 * F(2) + 2.0 * F(3)) / (6.0 * h);
+    const Eigen::VectorXd second = (2.0 * F(0) - 5.0 * F(1) + 4.0 * F(2) - F(3)) / (h * h);
+    const Eigen::VectorXd third = (F(3) - 3.0 * F(2) + 3.0 * F(1) - F(0)) / (h * h * h);
+    const auto twist = [&](const Eigen::VectorXd& f, const Eigen::VectorXd& fd, const Eigen::VectorXd& fdd) {
+        return Eigen::VectorXd((f - D.cwiseProduct(fd.cwiseQuotient(K)) - M * fdd.cwiseQuotient(K)).cwiseQuotient(K));
+    };
+    return {twist(F(0), first, second), twist(first, second, third)};
+}
+
 /// The same for one link, without matrices: a search tries many stiffnesses.
 twist_motion swing_of_one(const swing_dynamics& dynamics, const soft_transmission& soft, double rate) {
     const Eigen::Index n = dynamics.forcing.rows();
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(n);
     const auto F = dynamics.forcing.col(0);
     const auto M = dynamics.inertia.col(0);
-    if (n < 2 || !(M.minCoeff() > 0.0)) {
+    if (n < shortest || !(M.minCoeff() > 0.0)) {
         return {none, none, none};
     }
     twist_motion found{none, none, none};
-    double angle = F[0] / soft.stiffness;
-    double speed = (F[1] - F[0]) * rate / soft.stiffness;
+    const auto [first_angle, first_rate] = slow_start(dynamics, {soft}, rate);
+    double angle = first_angle[0];
+    double speed = first_rate[0];
     found.angle(0) = angle;
     found.rate(0) = speed;
     for (Eigen::Index k = 1; k < n; ++k) {
@@ -163,14 +195,11 @@ twist_motion swing(const swing_dynamics& dynamics, const std::vector<soft_transm
     const Eigen::Index n = dynamics.forcing.rows();
     const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(n, s);
     twist_motion found{none, none, none};
-    if (n < 2) {
+    if (n < shortest || !(dynamics.inertia.row(0).reshaped(s, s).diagonal().minCoeff() > 0.0)) {
         return found;
     }
-    const Eigen::VectorXd softness = stiffnesses(soft).cwiseInverse();
     Eigen::VectorXd from = dynamics.forcing.row(0);
-    Eigen::VectorXd angle = softness.cwiseProduct(from);
-    Eigen::VectorXd twist_rate =
-        rate * softness.cwiseProduct((dynamics.forcing.row(1) - dynamics.forcing.row(0)).transpose());
+    auto [angle, twist_rate] = slow_start(dynamics, soft, rate);
     Eigen::VectorXd acceleration = Eigen::VectorXd::Zero(s);
     swing_modes modes(soft);
     for (Eigen::Index k = 0; k < n; ++k) {

@@ -32,8 +32,8 @@ struct twist_motion {
 /// Solves M twist'' + D twist' + K twist = forcing from sample to sample, exactly for inertias that stay as between the
 /// two and a forcing that goes straight from one to the next: modes much faster than the sampling follow at rest
 /// instead of upsetting it. A mode is damped by a hundredth of the critical damping at least, or the noise of measured
-/// motion would pile up in it. It starts at rest; the twist is zero throughout where an inertia is not positive
-/// definite: no link swings so.
+/// motion would pile up in it. It starts as a slow motion would; the twist is zero throughout where an inertia is not
+/// positive definite: no link swings so.
 twist_motion swing(const swing_dynamics& dynamics, const std::vector<soft_transmission>& soft, double rate);
 
 /// Torque of links and payloads alone along a motion of the links, samples x n; affine in their accelerations.

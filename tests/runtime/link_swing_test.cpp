@@ -26,7 +26,7 @@ Eigen::MatrixXd swinging_forcing(const Eigen::VectorXd& amplitude, double w, Eig
 
 /// Largest distance of the twist from the stationary one over its size, in the last half of the samples.
 double distance_from_response(const Eigen::MatrixXd& M, const Eigen::VectorXd& K, const Eigen::VectorXd& D, double f) {
-    constexpr Eigen::Index samples = 8000;
+    constexpr Eigen::Index samples = 16000;  // what swings freely at first is gone by the middle, to e^-14
     const double w = 2.0 * M_PI * f;
     const Eigen::VectorXd amplitude = Eigen::VectorXd::LinSpaced(K.size(), 3.0, 5.0);
     std::vector<idim::soft_transmission> soft;

@@ -161,12 +161,15 @@ consistent_estimate consistent_fit(const idim_model_interface& model, const obse
                                    const physical_parameters& known_all, const consistency_request& request) {
     consistent_estimate result;
     const std::vector<double> unweighted(static_cast<std::size_t>(rows.dof), 1.0);
-    const estimate ordinary = solve_weighted(rows, unweighted).fit;
-    if (ordinary.chi.size() == 0) {
-        result.fit = ordinary;
+    const weighted_solution ordinary = solve_weighted(rows, unweighted);
+    if (ordinary.fit.chi.size() == 0) {
+        result.fit = ordinary.fit;
         return result;
     }
-    const std::vector<double> weight = request.weights_joints ? weights_of(ordinary.joint_deviation) : unweighted;
+    // From the rows themselves, not from their triangle: the objective is measured by them, down to rounding.
+    const std::vector<double> deviation =
+        joint_deviations(rows, residuals(rows, ordinary.fit.chi), ordinary.qr.parameter_share());
+    const std::vector<double> weight = request.weights_joints ? weights_of(deviation) : unweighted;
     weighted_solution weighted = solve_weighted(rows, weight);
     result.fit = weighted.fit;
     if (weighted.fit.chi.size() == 0) {
