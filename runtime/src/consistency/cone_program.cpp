@@ -18,7 +18,7 @@ constexpr int most_newton_steps = 1000;
 constexpr double centred_decrement = 1e-6;  // Newton decrement squared, in units of the weight
 constexpr double weight_factor = 0.1;       // from one central point to the next
 constexpr int most_idle_weights = 3;        // that do not improve the proof: rounding is all that is left
-constexpr double rounding_share = 1e-14;    // of |b|^2 / 2: what gradients of double precision can prove
+constexpr double rounding_share = 1e-13;    // of |b|^2 / 2: what gradients of double precision can prove
 constexpr double shortest_step = 1e-12;
 constexpr double boundary_share = 0.99;
 
