@@ -61,8 +61,9 @@ void lag_moments::add(const gapped_series& piece) {
 void lag_moments::add_pairs(const Eigen::VectorXd& present, Eigen::Index first) {
     for (Eigen::Index lag = 0; lag <= lags_; ++lag) {
         const Eigen::Index from = std::max(first, lag);
-        const Eigen::Index size = std::max(present.size() - from, Eigen::Index{0});
-        pairs_[lag] += present.segment(from, size).dot(present.segment(from - lag, size));
+        if (const Eigen::Index size = present.size() - from; size > 0) {
+            pairs_[lag] += present.segment(from, size).dot(present.segment(from - lag, size));
+        }
     }
 }
 

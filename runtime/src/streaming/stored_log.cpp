@@ -30,8 +30,10 @@ Eigen::MatrixXd table_of(const log& data) {
     Eigen::Index next = 1;
     for (const auto signal : kept_signals) {
         const Eigen::MatrixXd& values = data.*signal;
-        table.middleCols(next, values.cols()) = values;
-        next += values.cols();
+        if (values.cols() > 0) {
+            table.middleCols(next, values.cols()) = values;
+            next += values.cols();
+        }
     }
     return table;
 }
