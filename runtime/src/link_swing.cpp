@@ -140,7 +140,7 @@ std::pair<Eigen::VectorXd, Eigen::VectorXd> slow_start(const swing_dynamics& dyn
     return {twist(F(0), first, second), twist(first, second, third)};
 }
 
-/// The same for one link, without matrices: a search tries many stiffnesses.
+/// swing of one link, without matrices: a search tries many stiffnesses.
 twist_motion swing_of_one(const swing_dynamics& dynamics, const soft_transmission& soft, double rate) {
     const Eigen::Index n = dynamics.forcing.rows();
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(n);

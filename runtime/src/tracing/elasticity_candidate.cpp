@@ -131,6 +131,7 @@ class swing_search {
         return loss(f, ratio) < -exact_gain(start) ? shape(f, ratio) : start;
     }
 
+    /// Decrease of the loss by the largest part of the columns, quickly computed.
     double gain(const Eigen::Vector2d& shape) const {
         return gain_by([&](const driven_link& link) {
             const quick_twist twist(*link.log, joint_, twist_of(link, joint_, shape).acceleration);
@@ -138,6 +139,7 @@ class swing_search {
         });
     }
 
+    /// The same by the columns themselves.
     double exact_gain(const Eigen::Vector2d& shape) const {
         return gain_by([&](const driven_link& link) {
             const Eigen::MatrixXd torques = torques_of(model_, *link.log, joint_, twist_of(link, joint_, shape));
