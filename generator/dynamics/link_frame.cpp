@@ -13,15 +13,15 @@ angle_pair inverse(const angle_pair& angle) {
 }
 
 // Vectors of sparse frames are full of zeros, which GiNaC finds only after it has built the product or sum.
-ex product(const ex& a, const ex& b) {
+ex sparse_product(const ex& a, const ex& b) {
     return a.is_zero() || b.is_zero() ? ex(0) : a * b;
 }
-ex sum(const ex& a, const ex& b) {
+ex sparse_sum(const ex& a, const ex& b) {
     return a.is_zero() ? b : b.is_zero() ? a : a + b;
 }
 /// a b - c d
 ex difference(const ex& a, const ex& b, const ex& c, const ex& d) {
-    return c.is_zero() || d.is_zero() ? product(a, b) : sum(product(a, b), -c * d);
+    return c.is_zero() || d.is_zero() ? sparse_product(a, b) : sparse_sum(sparse_product(a, b), -c * d);
 }
 
 /// v turned by the angle about axis 0 (x) or 2 (z); named unless it is a mere exchange of components.
@@ -33,7 +33,7 @@ vector3 turn(symbolic_model& model, const std::string& name, const angle_pair& a
     const std::size_t b = axis == 0 ? 2 : 1;
     vector3 result = v;
     result[a] = difference(angle.cos, v[a], angle.sin, v[b]).expand();
-    result[b] = sum(product(angle.sin, v[a]), product(angle.cos, v[b])).expand();
+    result[b] = sparse_sum(sparse_product(angle.sin, v[a]), sparse_product(angle.cos, v[b])).expand();
     if (!is_quarter(angle)) {
         result[a] = model.assign(fmt::format("{}_{}", name, a + 1), result[a]);
         result[b] = model.assign(fmt::format("{}_{}", name, b + 1), result[b]);
@@ -96,11 +96,11 @@ vector3 cross(const vector3& a, const vector3& b) {
 }
 
 ex dot(const vector3& a, const vector3& b) {
-    return sum(sum(product(a[0], b[0]), product(a[1], b[1])), product(a[2], b[2]));
+    return sparse_sum(sparse_sum(sparse_product(a[0], b[0]), sparse_product(a[1], b[1])), sparse_product(a[2], b[2]));
 }
 
 vector3 add(const vector3& a, const vector3& b) {
-    return {sum(a[0], b[0]), sum(a[1], b[1]), sum(a[2], b[2])};
+    return {sparse_sum(a[0], b[0]), sparse_sum(a[1], b[1]), sparse_sum(a[2], b[2])};
 }
 
 bool is_zero(const vector3& a) {

@@ -11,7 +11,7 @@ namespace idim {
 namespace {
 
 constexpr double least_damping_ratio = 0.01;
-constexpr Eigen::Index shortest = 4;  // samples of a motion
+constexpr Eigen::Index shortest_motion = 4;  // samples of a motion
 
 /// x'' + c x' + w^2 x = f, f straight between samples.
 struct mode {
@@ -146,7 +146,7 @@ twist_motion swing_of_one(const swing_dynamics& dynamics, const soft_transmissio
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(n);
     const auto F = dynamics.forcing.col(0);
     const auto M = dynamics.inertia.col(0);
-    if (n < shortest || !(M.minCoeff() > 0.0)) {
+    if (n < shortest_motion || !(M.minCoeff() > 0.0)) {
         return {none, none, none};
     }
     twist_motion found{none, none, none};
@@ -195,7 +195,7 @@ twist_motion swing(const swing_dynamics& dynamics, const std::vector<soft_transm
     const Eigen::Index n = dynamics.forcing.rows();
     const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(n, s);
     twist_motion found{none, none, none};
-    if (n < shortest || !(dynamics.inertia.row(0).reshaped(s, s).diagonal().minCoeff() > 0.0)) {
+    if (n < shortest_motion || !(dynamics.inertia.row(0).reshaped(s, s).diagonal().minCoeff() > 0.0)) {
         return found;
     }
     Eigen::VectorXd from = dynamics.forcing.row(0);

@@ -124,9 +124,9 @@ std::vector<lag_moments> moments_of(const orthonormal_rows& Q, const series_sour
 }
 
 /// One correction of the models for what the fit has taken away, `raw` the autocovariances of the residual.
-std::vector<autoregression> corrected(const orthonormal_rows& Q, const std::vector<lag_moments>& moments,
-                                      const std::vector<Eigen::VectorXd>& raw,
-                                      const std::vector<autoregression>& models) {
+std::vector<autoregression> corrected_models(const orthonormal_rows& Q, const std::vector<lag_moments>& moments,
+                                             const std::vector<Eigen::VectorXd>& raw,
+                                             const std::vector<autoregression>& models) {
     const std::size_t joints = models.size();
     Eigen::Index lags = 0;
     std::vector<model_sums> sums;
@@ -167,7 +167,7 @@ std::vector<autoregression> noise_models(const orthonormal_rows& Q, const std::v
         models.push_back(fit_autoregression(raw.back(), of_joint.samples()));
     }
     for (int pass = 0; pass < bias_corrections; ++pass) {
-        models = corrected(Q, moments, raw, models);
+        models = corrected_models(Q, moments, raw, models);
     }
     return models;
 }
