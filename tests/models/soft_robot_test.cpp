@@ -47,10 +47,10 @@ class SoftRobot : public testing::Test {
 
     std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
 
-    command_result simulate(const std::map<std::string, double>& parameters, const char* stiffness) const {
-        std::ofstream(path("soft.yaml")) << rigid_arm
-                                         << "  - {effect: joint_elasticity, joints: [j2], shape: {K: " << stiffness
-                                         << "}}\n";
+    command_result simulate(const std::map<std::string, double>& parameters, const std::string& shape,
+                            const std::string& joint = "j2") const {
+        std::ofstream(path("soft.yaml")) << rigid_arm << "  - {effect: joint_elasticity, joints: [" << joint
+                                         << "], shape: {K: " << shape << "}}\n";
         std::ofstream(path("truth.json")) << json(parameters);
         return run_idim({"simulate", path("soft.yaml"), "--parameters", path("truth.json"), "--reference",
                          path("reference.csv"), "-o", path("log.csv"), "--torque-noise", "0.01", "0.01",
@@ -101,6 +101,23 @@ TEST_F(SoftRobot, IsTracedFromALogThatDoesNotDeclareIt) {
     EXPECT_TRUE(best["objection"].is_null()) << best["objection"];
     // The rigid model's inertia stands for the link's until the effect is in the model: K is near, D is not yet.
     EXPECT_NEAR(best["values"][1].get<double>(), 1500.0, 75.0);
+}
+
+// Link and rotor of the first joint are one parameter of the rigid model; how the link swings depends on its part.
+TEST_F(SoftRobot, IsTracedWhereTheRotorIsPartOfTheLink) {
+    std::map<std::string, double> apart = soft_truth;
+    apart["ZZ1R"] -= 0.8;
+    apart["Ia1"] = 0.8;
+    ASSERT_EQ(simulate(apart, "1500, D: 1.5", "j1").status, 0);
+    const command_result answer = run_idim({"diagnose", path("rigid.yaml"), path("log.csv"), "--cutoff", "60",
+                                            "--decimation", "5", "--json", path("traced.json")});
+    ASSERT_EQ(answer.status, 0) << answer.err;
+    const json best = json::parse(read_text(path("traced.json")))["candidates"][0];
+    EXPECT_EQ(best["effect"], "joint_elasticity");
+    EXPECT_EQ(best["joints"], json({"j1"}));
+    EXPECT_TRUE(best["objection"].is_null()) << best["objection"];
+    EXPECT_NEAR(best["values"][1].get<double>(), 1500.0, 75.0);
+    EXPECT_NEAR(best["values"][3].get<double>(), 0.8, 0.08);  // of the rotor
 }
 
 TEST_F(SoftRobot, IsNotSeenInARigidOne) {

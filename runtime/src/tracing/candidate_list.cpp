@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "declared_terms.hpp"
 #include "expression_candidate.hpp"
 #include "model_candidates.hpp"
 
@@ -13,6 +14,15 @@ namespace {
 
 /// Where the linearisation of a delay starts: a quarter of a sample.
 constexpr double first_delay = 0.25;
+
+/// Whether the rotor of joint j is declared and the model cannot tell its inertia from the link's.
+bool has_lumped_rotor(const trace_input& input, int j) {
+    const effect_place rotor{"rotor_inertia", {j}, {}};
+    const auto is_rotor = [&](const declared_term& term) { return term.place == rotor; };
+    const std::vector<declared_term> separable = separable_terms(input);
+    return std::find(input.declared.begin(), input.declared.end(), rotor) != input.declared.end() &&
+           std::none_of(separable.begin(), separable.end(), is_rotor);
+}
 
 void add_at_joints(const trace_input& input, const idim_effect& effect, std::vector<candidate_pointer>& list) {
     const idim_model_interface& model = *input.model;
@@ -28,7 +38,7 @@ void add_at_joints(const trace_input& input, const idim_effect& effect, std::vec
             case IDIM_EFFECT_ELASTICITY:
                 // The motion of motors and states are signals of such a model, which a link's own motion does not give.
                 if (model.n_signals <= model.dof) {
-                    list.push_back(elasticity_candidate(model, j));
+                    list.push_back(elasticity_candidate(model, j, has_lumped_rotor(input, j)));
                 }
                 break;
             case IDIM_EFFECT_PAYLOAD:

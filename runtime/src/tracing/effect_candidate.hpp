@@ -32,7 +32,8 @@ struct shape_bound {
     std::string unit;
     double low = 0.0;
     double high = 0.0;
-    bool is_instant = false;  ///< a time at which rows begin or cease to count
+    bool is_instant = false;   ///< a time at which rows begin or cease to count
+    bool is_nuisance = false;  ///< searched, but no coefficient of the effect
 };
 
 /// How the coefficient of a column becomes what the description declares.

@@ -439,7 +439,8 @@ class tracer {
             for (Eigen::Index c = 0; c < values[i].value.size(); ++c) {
                 const bool linear = c < m;
                 const auto k = static_cast<std::size_t>(linear ? c : c - m);
-                if (linear && (candidate.linear[k].is_nuisance || candidate.linear[k].is_one)) {
+                if (linear ? candidate.linear[k].is_nuisance || candidate.linear[k].is_one
+                           : candidate.shape[k].is_nuisance) {
                     continue;
                 }
                 auto [value, deviation] = linear ? candidate.declared(values[i].value[c], values[i].deviation[c])

@@ -22,8 +22,10 @@ candidate_pointer gain_candidate(int joint);
 
 /// A transmission of stiffness K and damping D at joint j: the link swings behind its motor, driven by the torque that
 /// it would have if it moved as the motor does. The only column, of coefficient one, is what that changes at all
-/// joints; the twist swings as if gravity and velocities were those of the motor's motion.
-candidate_pointer elasticity_candidate(const idim_model_interface& model, int joint);
+/// joints; the twist swings as if gravity and velocities were those of the motor's motion. Where the rotor is part of
+/// the link in the present model, which link and rotor that move alike do not tell, its inertia is a third shape: a
+/// soft transmission makes it a parameter of its own.
+candidate_pointer elasticity_candidate(const idim_model_interface& model, int joint, bool rotor_is_lumped);
 
 /// Gravity turned about each axis that it is not along: the columns are the changes of the gravity torques per radian,
 /// from the models with gravity turned. Where the present parameters do not tell what gravity then shows (first moments
