@@ -37,6 +37,20 @@ Eigen::MatrixXd second_derivative(const Eigen::MatrixXd& q, Eigen::Index first, 
 
 }  // namespace
 
+filtered_samples filtered_samples::part(Eigen::Index first, Eigen::Index count) const {
+    filtered_samples some;
+    some.file = file;
+    some.rate = rate;
+    some.t = t.segment(first, count);
+    for (const auto signal : {&filtered_samples::q, &filtered_samples::qd, &filtered_samples::qdd,
+                              &filtered_samples::tau, &filtered_samples::temp}) {
+        if ((this->*signal).size() > 0) {
+            some.*signal = (this->*signal).middleRows(first, count);
+        }
+    }
+    return some;
+}
+
 motion_filter::motion_filter(const sampled_span& span, const filter_choice& choice) : rate_(span.rate) {
     if (!(choice.cutoff >= 0.0 && choice.cutoff < 0.5 * rate_)) {
         throw input_error({span.file, 0, "cutoff"},

@@ -1,10 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <functional>
 #include <vector>
-
-#include "idim/filtered_samples.hpp"
 
 namespace idim {
 
@@ -14,6 +11,9 @@ struct soft_transmission {
     double stiffness;      ///< K > 0 [N*m/rad or N/m]
     double damping = 0.0;  ///< D [N*m*s/rad or N*s/m]
 };
+
+Eigen::VectorXd stiffnesses(const std::vector<soft_transmission>& soft);
+Eigen::VectorXd dampings(const std::vector<soft_transmission>& soft);
 
 /// What drives the links behind s soft transmissions: their torque is `forcing` - `inertia` times the acceleration of
 /// the twist, the motor's position less the link's.
@@ -29,19 +29,19 @@ struct twist_motion {
     Eigen::MatrixXd acceleration;
 };
 
+/// Twists of the transmissions at one instant, and their rates, [s] each.
+struct twist_state {
+    Eigen::VectorXd angle;
+    Eigen::VectorXd rate;
+};
+
+/// Damping below a hundredth of the critical one is taken for that: the noise of measured motion would pile up.
+inline constexpr double least_damping_ratio = 0.01;
+
 /// Solves M twist'' + D twist' + K twist = forcing from sample to sample, exactly for inertias that stay as between the
 /// two and a forcing that goes straight from one to the next: modes much faster than the sampling follow at rest
-/// instead of upsetting it. A mode is damped by a hundredth of the critical damping at least, or the noise of measured
-/// motion would pile up in it. It starts as a slow motion would; the twist is zero throughout where an inertia is not
-/// positive definite: no link swings so.
-twist_motion swing(const swing_dynamics& dynamics, const std::vector<soft_transmission>& soft, double rate);
-
-/// Torque of links and payloads alone along a motion of the links, samples x n; affine in their accelerations.
-using links_torque = std::function<Eigen::MatrixXd(const filtered_samples&)>;
-
-/// The motion of the links of a robot whose motors moved like this: theirs, less the twists of the soft transmissions.
-/// Measured motors lead; nothing is assumed of what drove them (Spong 1987, the links' half of the equations).
-filtered_samples links_behind(const filtered_samples& motor, const std::vector<soft_transmission>& soft,
-                              const links_torque& torque);
+/// instead of upsetting it. The twist is zero throughout where an inertia is not positive definite: no link swings so.
+twist_motion swing(const swing_dynamics& dynamics, const std::vector<soft_transmission>& soft, double rate,
+                   const twist_state& start);
 
 }  // namespace idim

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "idim/zero_phase_filter.hpp"
-#include "link_swing.hpp"
+#include "links_behind.hpp"
 
 namespace idim {
 
@@ -115,6 +115,47 @@ void run_states(const idim_model_interface& model, const filtered_samples& sampl
     }
 }
 
+/// The motion of the links, with what effects read beside it in the place of the temperatures.
+filtered_samples with_signals(const idim_model_interface& model, const filtered_samples& motors, filtered_samples links,
+                              const Eigen::VectorXd& chi) {
+    const Eigen::Index n = model.dof;
+    Eigen::MatrixXd signals = Eigen::MatrixXd::Zero(motors.samples(), model.n_signals);
+    if (motors.temp.size() > 0) {
+        signals.leftCols(n) = motors.temp;
+    }
+    Eigen::Index place = n + model.n_states;
+    if (has_soft_joint(model)) {
+        signals.middleCols(place, 3 * n) << motors.q, motors.qd, motors.qdd;
+        place += 3 * n;
+    }
+    if (model.needs_rigid_torque != 0 && chi.size() > 0) {
+        signals.middleCols(place, n) = rigid_torques(model, links, chi);
+    } else if (model.needs_rigid_torque != 0 && motors.tau.size() > 0) {
+        signals.middleCols(place, n) = motors.tau;
+    }
+    if (model.n_states > 0) {
+        run_states(model, links, signals);
+    }
+    links.temp = std::move(signals);
+    return links;
+}
+
+/// Torques of all joints along samples that hold everything the model reads, samples x n.
+Eigen::MatrixXd torques_along(const idim_model_interface& model, const filtered_samples& at,
+                              const Eigen::VectorXd& chi) {
+    const auto count = static_cast<std::size_t>(at.samples());
+    const idim_samples block = {count,
+                                count,
+                                at.q.data(),
+                                at.qd.data(),
+                                at.qdd.data(),
+                                at.t.data(),
+                                at.temp.size() > 0 ? at.temp.data() : nullptr};
+    Eigen::MatrixXd all(at.samples(), model.dof);
+    model.inverse_dynamics_batch(&block, chi.data(), all.data(), count);
+    return all;
+}
+
 }  // namespace
 
 double stiffness_of(const idim_model_interface& model, int joint) {
@@ -151,35 +192,18 @@ filtered_samples earlier(const filtered_samples& samples, double shift) {
 
 filtered_samples completed(const idim_model_interface& model, const filtered_samples& samples,
                            const Eigen::VectorXd& chi) {
-    filtered_samples result = samples;
-    const Eigen::Index n = model.dof;
-    Eigen::MatrixXd signals = Eigen::MatrixXd::Zero(samples.samples(), model.n_signals);
-    if (samples.temp.size() > 0) {
-        signals.leftCols(n) = samples.temp;
+    filtered_samples links = samples;
+    if (has_soft_joint(model) && chi.size() > 0) {
+        const links_torque torque = [&](const filtered_samples& at) { return rigid_torques(model, at, chi); };
+        const lacking_torque lacking = [&](const filtered_samples& motors, const filtered_samples& at) {
+            return Eigen::MatrixXd(motors.tau - torques_along(model, with_signals(model, motors, at, chi), chi));
+        };
+        links =
+            links_behind(samples, transmissions_of(model), torque, samples.tau.size() > 0 ? lacking : lacking_torque());
+    } else if (has_soft_joint(model) && samples.tau.size() > 0) {
+        follow_measured_torque(model, samples, links);
     }
-    Eigen::Index place = n + model.n_states;
-    if (has_soft_joint(model)) {
-        signals.middleCols(place, n) = samples.q;
-        signals.middleCols(place + n, n) = samples.qd;
-        signals.middleCols(place + 2 * n, n) = samples.qdd;
-        place += 3 * n;
-        if (chi.size() > 0) {
-            result = links_behind(samples, transmissions_of(model),
-                                  [&](const filtered_samples& links) { return rigid_torques(model, links, chi); });
-        } else if (samples.tau.size() > 0) {
-            follow_measured_torque(model, samples, result);
-        }
-    }
-    if (model.needs_rigid_torque != 0 && chi.size() > 0) {
-        signals.middleCols(place, n) = rigid_torques(model, result, chi);
-    } else if (model.needs_rigid_torque != 0 && samples.tau.size() > 0) {
-        signals.middleCols(place, n) = samples.tau;
-    }
-    if (model.n_states > 0) {
-        run_states(model, result, signals);
-    }
-    result.temp = std::move(signals);
-    return result;
+    return with_signals(model, samples, std::move(links), chi);
 }
 
 recorded_states::recorded_states(const idim_model_interface& model, const filtered_samples& samples,
@@ -210,21 +234,12 @@ const filtered_samples& recorded_states::of(int joint) const {
 Eigen::MatrixXd model_torques(const idim_model_interface& model, const filtered_samples& samples,
                               const Eigen::VectorXd& chi) {
     const recorded_states states(model, samples, chi);
-    const auto count = static_cast<std::size_t>(samples.samples());
     Eigen::MatrixXd torques(samples.samples(), model.dof);
     const filtered_samples* last = nullptr;
-    Eigen::MatrixXd all(samples.samples(), model.dof);
+    Eigen::MatrixXd all;
     for (int j = 0; j < model.dof; ++j) {
-        const filtered_samples& at = states.of(j);
-        if (&at != last) {
-            const idim_samples block = {count,
-                                        count,
-                                        at.q.data(),
-                                        at.qd.data(),
-                                        at.qdd.data(),
-                                        at.t.data(),
-                                        at.temp.size() > 0 ? at.temp.data() : nullptr};
-            model.inverse_dynamics_batch(&block, chi.data(), all.data(), count);
+        if (const filtered_samples& at = states.of(j); &at != last) {
+            all = torques_along(model, at, chi);
             last = &at;
         }
         torques.col(j) = all.col(j);

@@ -1,5 +1,6 @@
 // Links behind soft transmissions, against closed forms and a simulation of the link in fine steps.
-#include "link_swing.hpp"
+#include "links_behind.hpp"
+#include "swing_start.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,6 +15,12 @@ using complex = std::complex<double>;
 using idim::filtered_samples;
 
 constexpr double swing_rate = 1000.0;  // samples a second
+
+/// The swing that starts as a slow motion would.
+idim::twist_motion swing_slowly_started(const idim::swing_dynamics& dynamics,
+                                        const std::vector<idim::soft_transmission>& soft) {
+    return idim::swing(dynamics, soft, swing_rate, idim::slow_start(dynamics, soft, swing_rate));
+}
 
 /// A forcing of the links, F cos(w t + phase), along the samples.
 Eigen::MatrixXd swinging_forcing(const Eigen::VectorXd& amplitude, double w, Eigen::Index samples) {
@@ -34,8 +41,8 @@ double distance_from_response(const Eigen::MatrixXd& M, const Eigen::VectorXd& K
         soft.push_back({static_cast<int>(i), K[i], D[i]});
     }
     const Eigen::VectorXd flat = M.reshaped();
-    const idim::twist_motion twist = idim::swing(
-        {swinging_forcing(amplitude, w, samples), flat.transpose().replicate(samples, 1)}, soft, swing_rate);
+    const idim::twist_motion twist =
+        swing_slowly_started({swinging_forcing(amplitude, w, samples), flat.transpose().replicate(samples, 1)}, soft);
 
     Eigen::MatrixXcd stiffness = -w * w * M.cast<complex>();
     stiffness.diagonal() += K.cast<complex>() + complex(0.0, w) * D.cast<complex>();
@@ -80,7 +87,7 @@ TEST(LinkSwing, IsAtRestBehindAStiffTransmission) {
     constexpr Eigen::Index samples = 200;
     const Eigen::MatrixXd forcing = swinging_forcing(Eigen::VectorXd::Constant(1, 7.0), 30.0, samples);
     const idim::twist_motion twist =
-        idim::swing({forcing, Eigen::MatrixXd::Constant(samples, 1, 0.1)}, {{0, 1e9, 0.0}}, swing_rate);
+        swing_slowly_started({forcing, Eigen::MatrixXd::Constant(samples, 1, 0.1)}, {{0, 1e9, 0.0}});
     EXPECT_LT((twist.angle * 1e9 - forcing).cwiseAbs().maxCoeff(), 1e-4 * 7.0);
 }
 
@@ -88,7 +95,7 @@ TEST(LinkSwing, DoesNotHappenWithoutInertia) {
     const Eigen::MatrixXd forcing = Eigen::MatrixXd::Ones(50, 1);
     Eigen::MatrixXd inertia = Eigen::MatrixXd::Constant(50, 1, 0.5);
     inertia(30, 0) = -0.1;
-    EXPECT_TRUE(idim::swing({forcing, inertia}, {{0, 100.0, 1.0}}, swing_rate).angle.isZero(0.0));
+    EXPECT_TRUE(swing_slowly_started({forcing, inertia}, {{0, 100.0, 1.0}}).angle.isZero(0.0));
 }
 
 /// A pendulum at the end of a soft transmission: M q'' + m g l cos q = K (th - q) + D (th' - q').
@@ -105,30 +112,64 @@ struct soft_pendulum {
     }
 };
 
-TEST(LinkSwing, FollowsThePendulumThatIsSimulated) {
-    constexpr Eigen::Index samples = 5000;
-    const soft_pendulum pendulum;
-    filtered_samples motor;
-    motor.rate = swing_rate;
-    motor.t = Eigen::VectorXd::LinSpaced(samples, 0.0, (samples - 1) / swing_rate);
-    motor.q = motor.t.unaryExpr(&soft_pendulum::motor);
-    motor.qd = motor.t.unaryExpr(&soft_pendulum::motor_speed);
-    motor.qdd = motor.t.unaryExpr(&soft_pendulum::motor_acceleration);
-    const filtered_samples link =
-        idim::links_behind(motor, {{0, pendulum.K, pendulum.D}}, [&](const filtered_samples& at) -> Eigen::MatrixXd {
-            return pendulum.M * at.qdd + pendulum.gravity * at.q.array().cos().matrix();
-        });
-
-    std::array<double, 2> x = {link.q(0, 0), link.qd(0, 0)};
-    double worst = 0.0;
-    for (Eigen::Index k = 1; k < samples; ++k) {
-        boost::numeric::odeint::integrate_n_steps(boost::numeric::odeint::runge_kutta4<std::array<double, 2>>(),
-                                                  pendulum, x, motor.t[k - 1], 0.1 / swing_rate, 10);
-        worst = std::max(worst, std::abs(link.q(k, 0) - x[0]));
+class SoftPendulum : public testing::Test {
+  protected:
+    SoftPendulum() {
+        motor_.rate = swing_rate;
+        motor_.t = Eigen::VectorXd::LinSpaced(samples, 0.0, (samples - 1) / swing_rate);
+        motor_.q = motor_.t.unaryExpr(&soft_pendulum::motor);
+        motor_.qd = motor_.t.unaryExpr(&soft_pendulum::motor_speed);
+        motor_.qdd = motor_.t.unaryExpr(&soft_pendulum::motor_acceleration);
     }
-    const double twist = (link.q - motor.q).cwiseAbs().maxCoeff();
-    EXPECT_GT(twist, 0.01);
-    EXPECT_LT(worst, 2e-3 * twist);  // (w h)^2 / 12 of each part of the forcing, which the resonance enlarges
+
+    Eigen::MatrixXd torque(const filtered_samples& at) const {
+        return pendulum_.M * at.qdd + pendulum_.gravity * at.q.array().cos().matrix();
+    }
+
+    /// The motion of the link, simulated from this position and speed.
+    Eigen::VectorXd simulated(double q, double qd) const {
+        std::array<double, 2> x = {q, qd};
+        Eigen::VectorXd motion = Eigen::VectorXd::Constant(samples, q);
+        for (Eigen::Index k = 1; k < samples; ++k) {
+            boost::numeric::odeint::integrate_n_steps(boost::numeric::odeint::runge_kutta4<std::array<double, 2>>(),
+                                                      pendulum_, x, motor_.t[k - 1], 0.1 / swing_rate, 10);
+            motion[k] = x[0];
+        }
+        return motion;
+    }
+
+    filtered_samples links(const idim::lacking_torque& lacking = {}) const {
+        return idim::links_behind(
+            motor_, {{0, pendulum_.K, pendulum_.D}}, [&](const filtered_samples& at) { return torque(at); }, lacking);
+    }
+
+    static constexpr Eigen::Index samples = 5000;
+    soft_pendulum pendulum_;
+    filtered_samples motor_;
+};
+
+// (w h)^2 / 12 of each part of the forcing is lost, which the resonance enlarges.
+TEST_F(SoftPendulum, IsFollowedAsItIsSimulated) {
+    const filtered_samples link = links();
+    EXPECT_GT((link.q - motor_.q).cwiseAbs().maxCoeff(), 0.01);
+    EXPECT_LT((link.q - simulated(link.q(0, 0), link.qd(0, 0))).cwiseAbs().maxCoeff(),
+              2e-3 * (link.q - motor_.q).cwiseAbs().maxCoeff());
+}
+
+TEST_F(SoftPendulum, StartsAsTheTorqueOfItsMotorTells) {
+    const Eigen::VectorXd truth = simulated(motor_.q(0, 0), motor_.qd(0, 0));  // not twisted, for all its weight
+    const double twist = (truth - motor_.q).cwiseAbs().maxCoeff();
+    EXPECT_GT((links().q - truth).cwiseAbs().maxCoeff(), 0.1 * twist);
+    const idim::lacking_torque lacking = [&](const filtered_samples& motors, const filtered_samples& at) {
+        const Eigen::Index n = motors.samples();
+        Eigen::MatrixXd carried(n, 1);  // K twist + D twist', its rate by central differences
+        for (Eigen::Index k = 0; k < n; ++k) {
+            const double speed = k > 0 ? 0.5 * swing_rate * (truth[k + 1] - truth[k - 1]) : motors.qd(0, 0);
+            carried(k, 0) = pendulum_.K * (motors.q(k, 0) - truth[k]) + pendulum_.D * (motors.qd(k, 0) - speed);
+        }
+        return Eigen::MatrixXd(carried - torque(at));
+    };
+    EXPECT_LT((links(lacking).q - truth).cwiseAbs().maxCoeff(), 5e-3 * twist);
 }
 
 }  // namespace

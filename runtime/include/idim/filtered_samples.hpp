@@ -48,6 +48,8 @@ struct filtered_samples {
     Eigen::MatrixXd temp;  ///< empty if not recorded
 
     Eigen::Index samples() const { return t.size(); }
+    /// `count` samples from the `first` on.
+    filtered_samples part(Eigen::Index first, Eigen::Index count) const;
 };
 
 /// Resamples a log on a uniform grid at its median rate if its time stamps are not uniform (relative to

@@ -10,6 +10,7 @@
 
 #include "idim/recorded_states.hpp"
 #include "idim/zero_phase_filter.hpp"
+#include "swing_start.hpp"
 
 namespace idim {
 
@@ -33,7 +34,15 @@ twist_motion twist_of(const traced_log& log, int joint, const Eigen::VectorXd& s
     const double rotor = rotor_of(shape);
     const swing_dynamics link{log.tau_rigid.col(joint) - rotor * log.samples.qdd.col(joint),
                               log.inertia.col(diagonal).array() - rotor};
-    return swing(link, {{joint, shape[0], shape[1]}}, log.samples.rate);
+    const std::vector<soft_transmission> soft = {{joint, shape[0], shape[1]}};
+    const double rate = log.samples.rate;
+    const twist_state slow = slow_start(link, soft, rate);
+    const Eigen::Index count = free_samples(link, soft, rate);
+    const swing_dynamics head{link.forcing.topRows(count), link.inertia.topRows(count)};
+    const Eigen::MatrixXd acceleration = swing(head, soft, rate, slow).acceleration;
+    const Eigen::MatrixXd lacking =
+        (log.samples.tau.col(joint) - log.tau_model.col(joint)).head(count) + head.inertia.cwiseProduct(acceleration);
+    return swing(link, soft, rate, slow + free_start(head, soft, rate, lacking));
 }
 
 /// Rows of the largest part of a twist's torque, that of the inertia, from the acceleration filtered once: inertias

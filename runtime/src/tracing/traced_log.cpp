@@ -59,20 +59,6 @@ bool is_rigid(std::string_view name) {
     });
 }
 
-filtered_samples part_of(const filtered_samples& samples, Eigen::Index first, Eigen::Index count) {
-    filtered_samples part;
-    part.file = samples.file;
-    part.rate = samples.rate;
-    part.t = samples.t.segment(first, count);
-    for (const auto signal : {&filtered_samples::q, &filtered_samples::qd, &filtered_samples::qdd,
-                              &filtered_samples::tau, &filtered_samples::temp}) {
-        if ((samples.*signal).size() > 0) {
-            part.*signal = (samples.*signal).middleRows(first, count);
-        }
-    }
-    return part;
-}
-
 }  // namespace
 
 Eigen::MatrixXd rows_of(const traced_log& log, int joint, const Eigen::MatrixXd& columns) {
@@ -124,7 +110,7 @@ std::pair<filtered_samples, filtered_samples> hold_back(const filtered_samples& 
     const auto held = static_cast<Eigen::Index>(std::floor(share * static_cast<double>(n)));
     const auto between = static_cast<Eigen::Index>(std::ceil(gap * samples.rate));
     const Eigen::Index first = std::max<Eigen::Index>(0, n - held - between);
-    return {part_of(samples, 0, first), part_of(samples, n - held, held)};
+    return {samples.part(0, first), samples.part(n - held, held)};
 }
 
 }  // namespace idim
