@@ -59,6 +59,7 @@ class effect_candidate {
     bool is_of_the_robot = false;  ///< at no joint in particular: `joints` are all of them
     std::string when_permanent;    ///< why it cannot be seen if it lasts for the whole of every log; empty if it can
     bool per_log = false;          ///< linear coefficients are refitted for each log
+    int states = 0;                ///< values that say how its motion begins, chosen anew for each log
     /// A direction of the scaled columns whose norm outside the model's span is below this counts as within it: a drive
     /// gain shows only in 1e-4 of its column, rounding and filter ends in 1e-7.
     double least_outside = 1e-5;

@@ -109,6 +109,13 @@ bool within_bounds(const effect_candidate& candidate, const Eigen::VectorXd& coe
     return true;
 }
 
+/// Values chosen beside the linear coefficients: the shape, and how its motion begins in every fitted log.
+double searched_values(const trace_fit& fit, const effect_candidate& candidate) {
+    const auto fitted =
+        std::count_if(fit.logs().begin(), fit.logs().end(), [](const traced_log& log) { return !log.held_back; });
+    return static_cast<double>(candidate.shape.size()) + static_cast<double>(candidate.states * fitted);
+}
+
 }  // namespace
 
 row_count count_rows(const trace_fit& fit, const std::vector<int>& touched, const log_series& residual) {
@@ -208,8 +215,7 @@ effect_evidence test_on_fitted(const trace_fit& fit, const effect_term& term, bo
         }
     }
     const row_count after = count_rows(fit, candidate.touched, left);
-    const f_test test =
-        partial_f(after, columns.gain, static_cast<double>(columns.rank + static_cast<int>(candidate.shape.size())));
+    const f_test test = partial_f(after, columns.gain, columns.rank + searched_values(fit, candidate));
     evidence.correlation_length = after.length();
     evidence.freedom = test.freedom;
     evidence.f_statistic = test.statistic;
@@ -246,7 +252,7 @@ void test_on_held_back(const trace_fit& fit, effect_evidence& evidence) {
     for (const int j : candidate.touched) {
         evidence.explained_fraction = std::max(evidence.explained_fraction, explained_at(fit, left, j));
     }
-    const double price = static_cast<double>(candidate.linear.size() + candidate.shape.size()) *
+    const double price = (static_cast<double>(candidate.linear.size()) + searched_values(fit, candidate)) *
                          std::log(std::max(2.0, evidence.freedom));
     evidence.score = evidence.gain + held_back - price * evidence.correlation_length;
 }

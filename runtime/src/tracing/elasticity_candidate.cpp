@@ -16,6 +16,7 @@ class soft_joint final : public effect_candidate {
     soft_joint(const idim_model_interface& model, int joint, bool rotor_is_lumped)
         : model_(model), joint_(joint), rotor_is_lumped_(rotor_is_lumped) {
         effect = "joint_elasticity";
+        states = 2;
         joints = {joint};
         for (int j = 0; j < model.dof; ++j) {
             touched.push_back(j);
