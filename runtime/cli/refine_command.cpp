@@ -110,14 +110,30 @@ bool worse(const error_summary& after, const error_summary& before) {
     return after.relative_error > before.relative_error * (1.0 + margin);
 }
 
-/// Takes steps back from the end while the data held back is worse off with them.
+/// Nothing where the robot with these steps cannot be identified, which is said.
+std::unique_ptr<const rebuilt_robot> rebuild_if_identifiable(const refine_options& options, const traced_robot& before,
+                                                             const std::vector<trace_step>& steps) {
+    try {
+        return rebuild(options, before, steps);
+    } catch (const data_error& problem) {
+        if (steps.empty()) {
+            throw;
+        }
+        say(problem.what());
+        return nullptr;
+    }
+}
+
+/// Takes steps back from the end while the data held back is worse off with them, or the model cannot be identified.
 std::unique_ptr<const rebuilt_robot> rebuild_what_helps(const refine_options& options, const traced_robot& before,
                                                         const error_summary& errors_before,
                                                         std::vector<trace_step>& steps) {
-    std::unique_ptr<const rebuilt_robot> last = rebuild(options, before, steps);
-    while (!steps.empty() && worse(last->identified.errors.validation, errors_before)) {
+    std::unique_ptr<const rebuilt_robot> last = rebuild_if_identifiable(options, before, steps);
+    while (!steps.empty() && (!last || worse(last->identified.errors.validation, errors_before))) {
+        say(fmt::format("{} is taken back: the model identified with it is no better on data held back",
+                        steps.back().place.effect));
         steps.pop_back();
-        last = rebuild(options, before, steps);
+        last = rebuild_if_identifiable(options, before, steps);
     }
     return last;
 }

@@ -114,21 +114,19 @@ std::vector<double> weights_for(const fitted_rows& fit, least_squares_method met
                                                : weights_of(fit.result.joint_deviation);
 }
 
-}  // namespace
-
-fitted_rows fit_rows(const idim_model_interface& model, const std::vector<filtered_samples>& logs,
-                     const filter_choice& choice, least_squares_method method) {
+/// Rows and parameters of a model whose regressor depends on its parameters, from these parameters [b] on, or from
+/// those of the measured torque where there are none.
+fitted_rows settled_rows(const idim_model_interface& model, const std::vector<filtered_samples>& logs,
+                         const filter_choice& choice, least_squares_method method, const Eigen::VectorXd& start) {
     constexpr int most_steps = 50;
     // Of the torque; the deviations of parameters are many times that. Links are put behind their motors to 1e-11 rad,
     // which is some 1e-8 of the torque of their acceleration.
     const bool soft = has_soft_joint(model);
     const double settled = soft ? 1e-7 : 1e-9;
     fitted_rows fit;
-    fit.rows = with_log_columns(model, observe(model, logs, choice));
+    fit.rows = with_log_columns(
+        model, start.size() > 0 ? observe(model, logs, choice, {}, start) : observe(model, logs, choice));
     fit.result = least_squares(fit.rows, method);
-    if (!depends_on_parameters(model)) {
-        return fit;
-    }
     const std::vector<row_selection> kept = selections(fit.rows);
     std::vector<iteration> steps;
     // The inertia J behind a soft transmission comes out as J^2 / J_0 from rows with J_0, where the motion is slower
@@ -166,6 +164,33 @@ fitted_rows fit_rows(const idim_model_interface& model, const std::vector<filter
                                          "; the effects of the links' torque did not settle "
                                          "within {} steps",
                                          most_steps);
+    }
+    return fit;
+}
+
+}  // namespace
+
+// Where links swing within the band of the rows, the measured torque says too little of them to begin with: slower rows
+// are settled first.
+fitted_rows fit_rows(const idim_model_interface& model, const std::vector<filtered_samples>& logs,
+                     const filter_choice& choice, least_squares_method method) {
+    if (!depends_on_parameters(model)) {
+        fitted_rows fit;
+        fit.rows = with_log_columns(model, observe(model, logs, choice));
+        fit.result = least_squares(fit.rows, method);
+        return fit;
+    }
+    fitted_rows fit = settled_rows(model, logs, choice, method, {});
+    for (const int times : {2, 4, 8}) {
+        if (fit.result.converged || !has_soft_joint(model)) {
+            break;
+        }
+        filter_choice slower = choice;
+        slower.decimation *= times;
+        const fitted_rows first = settled_rows(model, logs, slower, method, {});
+        if (first.result.converged) {
+            fit = settled_rows(model, logs, choice, method, first.result.chi.head(model.n_base));
+        }
     }
     return fit;
 }
