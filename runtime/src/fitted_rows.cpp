@@ -124,8 +124,7 @@ fitted_rows settled_rows(const idim_model_interface& model, const std::vector<fi
     const bool soft = has_soft_joint(model);
     const double settled = soft ? 1e-7 : 1e-9;
     fitted_rows fit;
-    fit.rows = with_log_columns(
-        model, start.size() > 0 ? observe(model, logs, choice, {}, start) : observe(model, logs, choice));
+    fit.rows = with_log_columns(model, observe(model, logs, choice, start));
     fit.result = least_squares(fit.rows, method);
     const std::vector<row_selection> kept = selections(fit.rows);
     std::vector<iteration> steps;
