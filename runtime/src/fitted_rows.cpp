@@ -5,10 +5,13 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "idim/log_parameters.hpp"
 #include "idim/recorded_states.hpp"
+#include "stacked_qr.hpp"
+#include "swing_sensitivity.hpp"
 #include "weighted_fit.hpp"
 
 namespace idim {
@@ -36,65 +39,6 @@ double change_of_torque(const observation& rows, const Eigen::VectorXd& change) 
     return all > 0.0 ? std::sqrt(moved / all) : 0.0;
 }
 
-/// Norms of the regressor's columns [b]: what makes parameters of different units comparable.
-Eigen::VectorXd column_norms(const observation& rows) {
-    Eigen::VectorXd squares;
-    for (const observation_block& block : rows.blocks) {
-        for (const Eigen::MatrixXd& W : block.W) {
-            const Eigen::VectorXd of_joint = W.colwise().squaredNorm();
-            squares = squares.size() == 0 ? of_joint : Eigen::VectorXd(squares + of_joint);
-        }
-    }
-    return squares.cwiseSqrt();
-}
-
-/// Steps towards the fixed point of a map that full steps may lead away from: Anderson mixing (Walker and Ni 2011) of
-/// the last few steps, each column of which counts by its size.
-class mixed_steps {
-  public:
-    explicit mixed_steps(Eigen::VectorXd size) : size_(std::move(size)) {}
-
-    /// The step to take from `at`, where the map leads `full` further.
-    Eigen::VectorXd operator()(const Eigen::VectorXd& at, const Eigen::VectorXd& full) {
-        if (last_at_.size() > 0) {
-            moves_.push_back(at - last_at_);
-            changes_.push_back(full - last_full_);
-        }
-        if (moves_.size() > depth) {
-            moves_.erase(moves_.begin());
-            changes_.erase(changes_.begin());
-        }
-        last_at_ = at;
-        last_full_ = full;
-        Eigen::VectorXd step = part * full;
-        if (!moves_.empty()) {
-            const Eigen::MatrixXd moves = side_by_side(moves_);
-            const Eigen::MatrixXd changes = side_by_side(changes_);
-            const Eigen::MatrixXd sized = size_.asDiagonal() * changes;
-            step -= (moves + part * changes) * sized.completeOrthogonalDecomposition().solve(size_.cwiseProduct(full));
-        }
-        return step;
-    }
-
-  private:
-    static constexpr std::size_t depth = 8;
-    static constexpr double part = 0.5;
-
-    static Eigen::MatrixXd side_by_side(const std::vector<Eigen::VectorXd>& columns) {
-        Eigen::MatrixXd all(columns.front().size(), static_cast<Eigen::Index>(columns.size()));
-        for (std::size_t c = 0; c < columns.size(); ++c) {
-            all.col(static_cast<Eigen::Index>(c)) = columns[c];
-        }
-        return all;
-    }
-
-    Eigen::VectorXd size_;
-    std::vector<Eigen::VectorXd> moves_;
-    std::vector<Eigen::VectorXd> changes_;
-    Eigen::VectorXd last_at_;
-    Eigen::VectorXd last_full_;
-};
-
 /// How far an estimate is from parameters, as change_of_torque; 0 where there is none.
 double moved_by(const fitted_rows& fit, const Eigen::VectorXd& from) {
     return fit.result.chi.size() > 0 ? change_of_torque(fit.rows, fit.result.chi - from) : 0.0;
@@ -108,52 +52,119 @@ double weights_leave(const fitted_rows& fit) {
     return std::max(1e-6, 0.05 * deviation);
 }
 
-/// Weights of the joints as an estimate leaves them.
+/// Weights of the joints as an estimate leaves them; 1 where there is none.
 std::vector<double> weights_for(const fitted_rows& fit, least_squares_method method) {
-    return method == least_squares_method::ols ? std::vector<double>(static_cast<std::size_t>(fit.rows.dof), 1.0)
-                                               : weights_of(fit.result.joint_deviation);
+    return method == least_squares_method::ols || fit.result.chi.size() == 0
+               ? std::vector<double>(static_cast<std::size_t>(fit.rows.dof), 1.0)
+               : weights_of(fit.result.joint_deviation);
 }
 
-/// Rows and parameters of a model whose regressor depends on its parameters, from these parameters [b] on, or from
-/// those of the measured torque where there are none.
-fitted_rows settled_rows(const idim_model_interface& model, const std::vector<filtered_samples>& logs,
-                         const filter_choice& choice, least_squares_method method, const Eigen::VectorXd& start) {
+/// |Y - W chi|^2, joints weighted.
+double loss(const observation& rows, const std::vector<double>& weight, const Eigen::VectorXd& chi) {
+    double sum = 0.0;
+    for (const observation_block& block : rows.blocks) {
+        for (std::size_t j = 0; j < block.W.size(); ++j) {
+            sum += weight[j] * weight[j] * (block.Y[j] - block.W[j] * chi).squaredNorm();
+        }
+    }
+    return sum;
+}
+
+/// The parameters of the least norm, columns scaled, that fit rows best: where rotors move as their links do, half of
+/// their inertia for each.
+Eigen::VectorXd shared_parameters(const observation& rows, const std::vector<double>& weight) {
+    const stacked_qr qr = factor(triangles_of(rows), weight);
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
+    solver.setThreshold(1e-8);
+    return solver.compute(qr.R).solve(qr.z).cwiseQuotient(qr.column_norm);
+}
+
+/// Rows of one model and its logs, whose regressor depends on the parameters.
+class dependent_rows {
+  public:
+    dependent_rows(const idim_model_interface& model, const std::vector<filtered_samples>& logs,
+                   const filter_choice& choice, std::vector<row_selection> kept)
+        : model_(model), logs_(logs), choice_(choice), kept_(std::move(kept)) {}
+
+    observation at(const Eigen::VectorXd& chi) const {
+        return with_log_columns(model_, observe(model_, logs_, choice_, kept_, chi.head(model_.n_base)));
+    }
+    observation linearised_at(const Eigen::VectorXd& chi, observation rows) const {
+        return has_soft_joint(model_) ? linearised(model_, logs_, choice_, std::move(rows), chi) : rows;
+    }
+    /// Links are rigid without inertia.
+    observation rigid() const { return at(Eigen::VectorXd::Zero(model_.n_base)); }
+
+  private:
+    const idim_model_interface& model_;
+    const std::vector<filtered_samples>& logs_;
+    filter_choice choice_;
+    std::vector<row_selection> kept_;
+};
+
+/// Where the steps of Gauss and Newton begin: with the better of the parameters that rows of the measured torque give
+/// and of those that rigid transmissions give.
+Eigen::VectorXd first_parameters(const dependent_rows& rows, const fitted_rows& fit,
+                                 const std::vector<double>& weight) {
+    const Eigen::VectorXd shared = shared_parameters(rows.rigid(), weight);
+    const bool followed = fit.result.chi.size() > 0 &&
+                          loss(rows.at(fit.result.chi), weight, fit.result.chi) < loss(rows.at(shared), weight, shared);
+    return followed ? fit.result.chi : shared;
+}
+
+}  // namespace
+
+fitted_rows fit_rows(const idim_model_interface& model, const std::vector<filtered_samples>& logs,
+                     const filter_choice& choice, least_squares_method method) {
     constexpr int most_steps = 50;
     // Of the torque; the deviations of parameters are many times that. Links are put behind their motors to 1e-11 rad,
     // which is some 1e-8 of the torque of their acceleration.
     const bool soft = has_soft_joint(model);
     const double settled = soft ? 1e-7 : 1e-9;
     fitted_rows fit;
-    fit.rows = with_log_columns(model, observe(model, logs, choice, start));
+    fit.rows = with_log_columns(model, observe(model, logs, choice));
     fit.result = least_squares(fit.rows, method);
-    const std::vector<row_selection> kept = selections(fit.rows);
+    if (!depends_on_parameters(model) || (fit.result.chi.size() == 0 && !soft)) {
+        return fit;
+    }
+    const dependent_rows rows(model, logs, choice, selections(fit.rows));
     std::vector<iteration> steps;
-    // The inertia J behind a soft transmission comes out as J^2 / J_0 from rows with J_0, where the motion is slower
-    // than the link swings: full steps go to and fro, or away. Other parameters settle at once in full steps.
-    mixed_steps mixed(column_norms(fit.rows));
-    Eigen::VectorXd at = fit.result.chi;
     std::vector<double> weight = weights_for(fit, method);
+    Eigen::VectorXd at = soft ? first_parameters(rows, fit, weight) : fit.result.chi;
+    Eigen::VectorXd good = at;  // the best so far
+    double least = std::numeric_limits<double>::infinity();
     bool done = false;
     // Steps without deviations, which cost far more than the solution; they belong to the weights before them, so that
     // the whole estimate is taken once they settle, and again where its weights move it.
-    for (int step = 0; step < most_steps && !done && fit.result.chi.size() > 0; ++step) {
-        steps.push_back({fit.result.chi, fit.result.residual.relative_error});
-        if (step > 0) {
-            const Eigen::VectorXd full = fit.result.chi - at;
-            at += soft ? mixed(at, full) : full;
-        }
-        fit.rows = with_log_columns(model, observe(model, logs, choice, kept, at.head(model.n_base)));
+    for (int step = 0; step < most_steps && !done; ++step) {
+        const observation here = rows.at(at);
+        const double lost = loss(here, weight, at);
+        fit.rows = rows.linearised_at(at, here);
         fit.result = solve_weighted(fit.rows, weight).fit;
+        if (fit.result.chi.size() == 0 || (soft && lost > least * (1.0 + 1e-6))) {
+            if (step == 0) {
+                break;
+            }
+            at = good + 0.25 * (at - good);  // too far
+            continue;
+        }
+        steps.push_back({at, fit.result.residual.relative_error});
+        good = at;
+        least = lost;
         if (moved_by(fit, at) <= settled) {
             fit.result = least_squares(fit.rows, method);
             weight = weights_for(fit, method);
-            mixed = mixed_steps(column_norms(fit.rows));  // another map from here on
+            least = std::numeric_limits<double>::infinity();
             done = moved_by(fit, at) <= weights_leave(fit);
         }
+        at = fit.result.chi;
     }
     if (fit.result.chi.size() > 0) {
         if (!done) {
             fit.result = least_squares(fit.rows, method);
+        }
+        if (soft) {
+            fit.result.residual = errors(rows.at(fit.result.chi), fit.result.chi);
         }
         steps.push_back({fit.result.chi, fit.result.residual.relative_error});
         fit.result.iterations = steps;
@@ -163,33 +174,6 @@ fitted_rows settled_rows(const idim_model_interface& model, const std::vector<fi
                                          "; the effects of the links' torque did not settle "
                                          "within {} steps",
                                          most_steps);
-    }
-    return fit;
-}
-
-}  // namespace
-
-// Where links swing within the band of the rows, the measured torque says too little of them to begin with: slower rows
-// are settled first.
-fitted_rows fit_rows(const idim_model_interface& model, const std::vector<filtered_samples>& logs,
-                     const filter_choice& choice, least_squares_method method) {
-    if (!depends_on_parameters(model)) {
-        fitted_rows fit;
-        fit.rows = with_log_columns(model, observe(model, logs, choice));
-        fit.result = least_squares(fit.rows, method);
-        return fit;
-    }
-    fitted_rows fit = settled_rows(model, logs, choice, method, {});
-    for (const int times : {2, 4, 8}) {
-        if (fit.result.converged || !has_soft_joint(model)) {
-            break;
-        }
-        filter_choice slower = choice;
-        slower.decimation *= times;
-        const fitted_rows first = settled_rows(model, logs, slower, method, {});
-        if (first.result.converged) {
-            fit = settled_rows(model, logs, choice, method, first.result.chi.head(model.n_base));
-        }
     }
     return fit;
 }

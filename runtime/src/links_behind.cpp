@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "idim/recorded_states.hpp"
 #include "swing_start.hpp"
 
 namespace idim {
@@ -16,22 +17,6 @@ std::vector<int> joints_of(const std::vector<soft_transmission>& soft) {
         joints.push_back(t.joint);
     }
     return joints;
-}
-
-swing_dynamics dynamics_of(const filtered_samples& link, const filtered_samples& motor,
-                           const std::vector<soft_transmission>& soft, const links_torque& torque) {
-    const auto s = static_cast<Eigen::Index>(soft.size());
-    const std::vector<int> joints = joints_of(soft);
-    filtered_samples probe = link;
-    probe.qdd = motor.qdd;
-    swing_dynamics found{torque(probe)(Eigen::all, joints), Eigen::MatrixXd(motor.samples(), s * s)};
-    for (Eigen::Index i = 0; i < s; ++i) {
-        const int joint = joints[static_cast<std::size_t>(i)];
-        probe.qdd.col(joint).array() += 1.0;
-        found.inertia.middleCols(i * s, s) = torque(probe)(Eigen::all, joints) - found.forcing;
-        probe.qdd.col(joint) = motor.qdd.col(joint);
-    }
-    return found;
 }
 
 // The inertia stands on the left of the equation of the twist: what is left for the next step is that gravity and
@@ -84,6 +69,46 @@ twist_state found_start(const filtered_samples& motor, const std::vector<soft_tr
 }
 
 }  // namespace
+
+std::vector<soft_transmission> transmissions_of(const idim_model_interface& model) {
+    std::vector<soft_transmission> soft;
+    for (int j = 0; j < model.dof; ++j) {
+        if (const double stiffness = stiffness_of(model, j); stiffness > 0.0) {
+            soft.push_back({j, stiffness, damping_of(model, j)});
+        }
+    }
+    return soft;
+}
+
+Eigen::MatrixXd rigid_torques(const idim_model_interface& model, const filtered_samples& links,
+                              const Eigen::VectorXd& chi) {
+    Eigen::MatrixXd torque(links.samples(), model.dof);
+    Eigen::VectorXd at(model.dof);
+    for (Eigen::Index k = 0; k < links.samples(); ++k) {
+        const Eigen::VectorXd q = links.q.row(k);
+        const Eigen::VectorXd qd = links.qd.row(k);
+        const Eigen::VectorXd qdd = links.qdd.row(k);
+        model.rigid_torque(q.data(), qd.data(), qdd.data(), links.t[k], chi.data(), at.data());
+        torque.row(k) = at;
+    }
+    return torque;
+}
+
+swing_dynamics dynamics_of(const filtered_samples& link, const filtered_samples& motor,
+                           const std::vector<soft_transmission>& soft, const links_torque& torque) {
+    const auto s = static_cast<Eigen::Index>(soft.size());
+    const std::vector<int> joints = joints_of(soft);
+    filtered_samples probe = link;
+    probe.qdd = motor.qdd;
+    swing_dynamics found{torque(probe)(Eigen::all, joints), Eigen::MatrixXd(motor.samples(), s * s)};
+    for (Eigen::Index i = 0; i < s; ++i) {
+        const int joint = joints[static_cast<std::size_t>(i)];
+        probe.qdd.col(joint).array() += 1.0;
+        found.inertia.middleCols(i * s, s) = torque(probe)(Eigen::all, joints) - found.forcing;
+        probe.qdd.col(joint) = motor.qdd.col(joint);
+    }
+    return found;
+}
 
 filtered_samples links_behind(const filtered_samples& motor, const std::vector<soft_transmission>& soft,
                               const links_torque& torque, const lacking_torque& lacking) {

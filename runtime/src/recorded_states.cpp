@@ -55,30 +55,6 @@ Eigen::VectorXd differences(const Eigen::VectorXd& x, double rate) {
     return d;
 }
 
-Eigen::MatrixXd rigid_torques(const idim_model_interface& model, const filtered_samples& samples,
-                              const Eigen::VectorXd& chi) {
-    Eigen::MatrixXd torque(samples.samples(), model.dof);
-    Eigen::VectorXd at(model.dof);
-    for (Eigen::Index k = 0; k < samples.samples(); ++k) {
-        const Eigen::VectorXd q = samples.q.row(k);
-        const Eigen::VectorXd qd = samples.qd.row(k);
-        const Eigen::VectorXd qdd = samples.qdd.row(k);
-        model.rigid_torque(q.data(), qd.data(), qdd.data(), samples.t[k], chi.data(), at.data());
-        torque.row(k) = at;
-    }
-    return torque;
-}
-
-std::vector<soft_transmission> transmissions_of(const idim_model_interface& model) {
-    std::vector<soft_transmission> soft;
-    for (int j = 0; j < model.dof; ++j) {
-        if (const double stiffness = stiffness_of(model, j); stiffness > 0.0) {
-            soft.push_back({j, stiffness, damping_of(model, j)});
-        }
-    }
-    return soft;
-}
-
 /// A first guess without parameters: the measured torque twists the transmissions. Rotors and links could not be told
 /// apart if they moved alike.
 void follow_measured_torque(const idim_model_interface& model, const filtered_samples& motor, filtered_samples& link) {
