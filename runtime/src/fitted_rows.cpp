@@ -117,6 +117,8 @@ Eigen::VectorXd first_parameters(const dependent_rows& rows, const fitted_rows& 
 fitted_rows fit_rows(const idim_model_interface& model, const std::vector<filtered_samples>& logs,
                      const filter_choice& choice, least_squares_method method) {
     constexpr int most_steps = 50;
+    // What a twist changes beside inertias is left out of the derivative: near its minimum the loss may rise a little.
+    constexpr double may_rise = 1.02;
     // Of the torque; the deviations of parameters are many times that. Links are put behind their motors to 1e-11 rad,
     // which is some 1e-8 of the torque of their acceleration.
     const bool soft = has_soft_joint(model);
@@ -141,7 +143,7 @@ fitted_rows fit_rows(const idim_model_interface& model, const std::vector<filter
         const double lost = loss(here, weight, at);
         fit.rows = rows.linearised_at(at, here);
         fit.result = solve_weighted(fit.rows, weight).fit;
-        if (fit.result.chi.size() == 0 || (soft && lost > least * (1.0 + 1e-6))) {
+        if (fit.result.chi.size() == 0 || (soft && lost > may_rise * least)) {
             if (step == 0) {
                 break;
             }
