@@ -28,8 +28,8 @@ filtered_samples earlier(const filtered_samples& samples, double shift);
 /// Samples with all that the model reads beside the motion in `temp` (see model_interface.h), at the full rate:
 /// temperatures, states of effects run from the first sample on, and where there are soft transmissions the motion of
 /// the links as they swing behind their motors, tau_rigid(link) = K (motor - link) + D (motor - link)'; that of the
-/// motors is then a signal. `chi` [b]: where it is empty the measured torque stands for that of the links. Where torques
-/// are measured, they say how the links swing at first, two values for each soft transmission.
+/// motors is then a signal. `chi` [b]: where it is empty the measured torque stands for that of the links. Where
+/// torques are measured, they say how the links swing at first, two values for each soft transmission.
 filtered_samples completed(const idim_model_interface& model, const filtered_samples& samples,
                            const Eigen::VectorXd& chi);
 

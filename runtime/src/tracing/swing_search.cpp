@@ -16,7 +16,7 @@ namespace idim {
 
 namespace {
 
-constexpr double slowest = 3.0;            // Hz: a robot whose links swing slower is none that one would identify
+constexpr double slowest_swing = 3.0;      // Hz: a robot whose links swing slower is none that one would identify
 constexpr double share_of_sampling = 0.4;  // what swings faster follows at rest
 constexpr double frequency_ratio = 1.1;    // of neighbours of the grid
 constexpr double usual_damping_ratio = 0.05;
@@ -172,8 +172,8 @@ swing_search::search_point swing_search::point_of(const Eigen::VectorXd& shape) 
 }
 
 std::vector<double> swing_search::frequencies() const {
-    const double steps = std::max(0.0, std::log(fastest_ / slowest)) / std::log(frequency_ratio);
-    std::vector<double> values(static_cast<std::size_t>(1.0 + steps), slowest);
+    const double steps = std::max(0.0, std::log(fastest_ / slowest_swing)) / std::log(frequency_ratio);
+    std::vector<double> values(static_cast<std::size_t>(1.0 + steps), slowest_swing);
     for (std::size_t i = 1; i < values.size(); ++i) {
         values[i] = frequency_ratio * values[i - 1];
     }
@@ -189,7 +189,7 @@ int swing_search::shapes() const {
 }
 
 Eigen::VectorXd swing_search::best() const {
-    search_point best{slowest, usual_damping_ratio, 0.0};
+    search_point best{slowest_swing, usual_damping_ratio, 0.0};
     double most = -std::numeric_limits<double>::infinity();
     for (const double share : rotor_shares()) {
         for (const double frequency : frequencies()) {
