@@ -130,8 +130,9 @@ std::unique_ptr<const rebuilt_robot> rebuild_what_helps(const refine_options& op
                                                         std::vector<trace_step>& steps) {
     std::unique_ptr<const rebuilt_robot> last = rebuild_if_identifiable(options, before, steps);
     while (!steps.empty() && (!last || worse(last->identified.errors.validation, errors_before))) {
-        say(fmt::format("{} is taken back: the model identified with it is no better on data held back",
-                        steps.back().place.effect));
+        say(fmt::format("{} is taken back: {}", steps.back().place.effect,
+                        last ? "the model identified with it is worse on data held back"
+                             : "the model cannot be identified with it"));
         steps.pop_back();
         last = rebuild_if_identifiable(options, before, steps);
     }

@@ -112,40 +112,29 @@ Eigen::VectorXd first_parameters(const dependent_rows& rows, const fitted_rows& 
     return followed ? fit.result.chi : shared;
 }
 
-}  // namespace
+constexpr int most_steps = 50;
 
-fitted_rows fit_rows(const idim_model_interface& model, const std::vector<filtered_samples>& logs,
-                     const filter_choice& choice, least_squares_method method) {
-    constexpr int most_steps = 50;
+/// Repeats rows and estimate from `at` on until the parameters stay; returns whether they do, and notes the steps.
+bool settle(const dependent_rows& rows, bool soft, least_squares_method method, Eigen::VectorXd at, fitted_rows& fit,
+            std::vector<iteration>& steps) {
     // What a twist changes beside inertias is left out of the derivative: near its minimum the loss may rise a little.
     constexpr double may_rise = 1.02;
     // Of the torque; the deviations of parameters are many times that. Links are put behind their motors to 1e-11 rad,
     // which is some 1e-8 of the torque of their acceleration.
-    const bool soft = has_soft_joint(model);
     const double settled = soft ? 1e-7 : 1e-9;
-    fitted_rows fit;
-    fit.rows = with_log_columns(model, observe(model, logs, choice));
-    fit.result = least_squares(fit.rows, method);
-    if (!depends_on_parameters(model) || (fit.result.chi.size() == 0 && !soft)) {
-        return fit;
-    }
-    const dependent_rows rows(model, logs, choice, selections(fit.rows));
-    std::vector<iteration> steps;
     std::vector<double> weight = weights_for(fit, method);
-    Eigen::VectorXd at = soft ? first_parameters(rows, fit, weight) : fit.result.chi;
-    Eigen::VectorXd good = at;  // the best so far
+    Eigen::VectorXd good = at;
     double least = std::numeric_limits<double>::infinity();
-    bool done = false;
     // Steps without deviations, which cost far more than the solution; they belong to the weights before them, so that
     // the whole estimate is taken once they settle, and again where its weights move it.
-    for (int step = 0; step < most_steps && !done; ++step) {
+    for (int step = 0; step < most_steps; ++step) {
         const observation here = rows.at(at);
         const double lost = loss(here, weight, at);
         fit.rows = rows.linearised_at(at, here);
         fit.result = solve_weighted(fit.rows, weight).fit;
         if (fit.result.chi.size() == 0 || (soft && lost > may_rise * least)) {
             if (step == 0) {
-                break;
+                return false;
             }
             at = good + 0.25 * (at - good);  // too far
             continue;
@@ -157,14 +146,33 @@ fitted_rows fit_rows(const idim_model_interface& model, const std::vector<filter
             fit.result = least_squares(fit.rows, method);
             weight = weights_for(fit, method);
             least = std::numeric_limits<double>::infinity();
-            done = moved_by(fit, at) <= weights_leave(fit);
+            if (moved_by(fit, at) <= weights_leave(fit)) {
+                return true;
+            }
         }
         at = fit.result.chi;
     }
+    fit.rows = rows.linearised_at(good, rows.at(good));  // the last step may have been one too far
+    fit.result = least_squares(fit.rows, method);
+    return false;
+}
+
+}  // namespace
+
+fitted_rows fit_rows(const idim_model_interface& model, const std::vector<filtered_samples>& logs,
+                     const filter_choice& choice, least_squares_method method) {
+    const bool soft = has_soft_joint(model);
+    fitted_rows fit;
+    fit.rows = with_log_columns(model, observe(model, logs, choice));
+    fit.result = least_squares(fit.rows, method);
+    if (!depends_on_parameters(model) || (fit.result.chi.size() == 0 && !soft)) {
+        return fit;
+    }
+    const dependent_rows rows(model, logs, choice, selections(fit.rows));
+    const Eigen::VectorXd first = soft ? first_parameters(rows, fit, weights_for(fit, method)) : fit.result.chi;
+    std::vector<iteration> steps;
+    const bool done = settle(rows, soft, method, first, fit, steps);
     if (fit.result.chi.size() > 0) {
-        if (!done) {
-            fit.result = least_squares(fit.rows, method);
-        }
         if (soft) {
             fit.result.residual = errors(rows.at(fit.result.chi), fit.result.chi);
         }

@@ -16,9 +16,9 @@ twist_state slow_start(const swing_dynamics& dynamics, const std::vector<soft_tr
 /// twentieth, sixteen swings at most.
 Eigen::Index free_samples(const swing_dynamics& dynamics, const std::vector<soft_transmission>& soft, double rate);
 
-/// How much more than `start` the transmissions are twisted at the first sample, by least squares, so that `lacking`
-/// [samples x s], the measured torque of their motors less that of the links that swing from `start`, is what links
-/// that swing freely from the rest take. A swing too fast for the sampling tells nothing: zero.
+/// How much more the transmissions are twisted at the first sample than some model of them has it, by least squares:
+/// links that swing freely from that difference take `lacking` [samples x s], the measured torque of the motors less
+/// that of the model. A swing too fast for the sampling tells nothing: zero.
 twist_state free_start(const swing_dynamics& dynamics, const std::vector<soft_transmission>& soft, double rate,
                        const Eigen::MatrixXd& lacking);
 
