@@ -112,7 +112,7 @@ Eigen::VectorXd first_parameters(const dependent_rows& rows, const fitted_rows& 
     return followed ? fit.result.chi : shared;
 }
 
-constexpr int most_steps = 50;
+constexpr int most_fit_steps = 50;
 
 /// Repeats rows and estimate from `at` on until the parameters stay; returns whether they do, and notes the steps.
 bool settle(const dependent_rows& rows, bool soft, least_squares_method method, Eigen::VectorXd at, fitted_rows& fit,
@@ -127,7 +127,7 @@ bool settle(const dependent_rows& rows, bool soft, least_squares_method method, 
     double least = std::numeric_limits<double>::infinity();
     // Steps without deviations, which cost far more than the solution; they belong to the weights before them, so that
     // the whole estimate is taken once they settle, and again where its weights move it.
-    for (int step = 0; step < most_steps; ++step) {
+    for (int step = 0; step < most_fit_steps; ++step) {
         const observation here = rows.at(at);
         const double lost = loss(here, weight, at);
         fit.rows = rows.linearised_at(at, here);
@@ -183,7 +183,7 @@ fitted_rows fit_rows(const idim_model_interface& model, const std::vector<filter
                                    : fmt::format(
                                          "; the effects of the links' torque did not settle "
                                          "within {} steps",
-                                         most_steps);
+                                         most_fit_steps);
     }
     return fit;
 }
