@@ -105,9 +105,12 @@ std::unique_ptr<const rebuilt_robot> rebuild(const refine_options& options, cons
     return std::make_unique<const rebuilt_robot>(with_description(before, file), options.method);
 }
 
+/// Whether joints are worse off on the whole, each beside what it was, or their torques together by more than one per
+/// cent: what a light joint gains moves the parameters of heavy ones within their deviations.
 bool worse(const error_summary& after, const error_summary& before) {
-    constexpr double margin = 2e-3;  // other joints' parameters move within their deviations
-    return after.relative_error > before.relative_error * (1.0 + margin);
+    constexpr double margin = 2e-3;
+    constexpr double together = 1e-2;
+    return error_ratio(before, after) > 1.0 + margin || after.relative_error > before.relative_error * (1.0 + together);
 }
 
 /// Nothing where the robot with these steps cannot be identified, which is said.

@@ -64,4 +64,13 @@ error_summary errors(const observation& rows, const Eigen::VectorXd& chi) {
     return summary_of(squares);
 }
 
+double error_ratio(const error_summary& before, const error_summary& after) {
+    double parts = 0.0;
+    for (std::size_t j = 0; j < before.joints.size(); ++j) {
+        const double ratio = before.joints[j].rms > 0.0 ? after.joints[j].rms / before.joints[j].rms : 1.0;
+        parts += ratio * ratio;
+    }
+    return std::sqrt(parts / static_cast<double>(before.joints.size()));
+}
+
 }  // namespace idim

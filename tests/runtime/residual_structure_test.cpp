@@ -97,6 +97,23 @@ TEST(ResidualStructure, OfTwoSignalsIsFoundAtItsJointWithItsForm) {
     EXPECT_EQ(proposal->from, 0);
 }
 
+TEST(ResidualStructure, WhereFewRowsTellASurfaceIsStillFound) {
+    // Friction that changes with the other joint's position. Where the rows fitted hardly come (joint 2 goes half as
+    // far there as in the log held back) nothing is made up.
+    std::mt19937_64 random(4);
+    std::vector<traced_log> logs = noisy_logs(0.5, random);
+    logs.front().samples.q.col(1) *= 0.5;
+    for (traced_log& log : logs) {
+        log.rows.Y[0].array() += 3.0 * log.samples.qd.col(0).array().sign() * log.samples.q.col(1).array();
+    }
+    const std::vector<signal_dependence> found = find_dependences(fit_with_own_noise(logs, {}));
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].joint, 0);
+    ASSERT_EQ(found[0].signals.size(), 2U);
+    EXPECT_EQ(found[0].signals[0].name(), "qd1");
+    EXPECT_EQ(found[0].signals[1].name(), "q2");
+}
+
 TEST(ResidualStructure, OfOneSignalIsNotSaidToBeOfTwo) {
     std::mt19937_64 random(3);
     std::vector<traced_log> logs = noisy_logs(0.5, random);

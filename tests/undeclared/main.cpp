@@ -45,16 +45,14 @@ int usual_count(const std::string& class_name) {
 
 std::vector<planned_case> planned(const bench_options& options) {
     std::vector<planned_case> plan;
+    const std::uint64_t usual_first = options.evaluation ? first_evaluation_seed : 1;
+    const std::uint64_t first = options.seed > 0 ? options.seed : usual_first;
     for (const std::string& name : options.classes.empty() ? case_classes() : options.classes) {
-        if (options.seed > 0) {
-            plan.push_back({name, options.seed});
-            continue;
-        }
-        const int count = options.count > 0
-                              ? options.count
-                              : std::max(1, static_cast<int>(std::lround(options.scale * usual_count(name))));
+        const int usual =
+            options.seed > 0 ? 1 : std::max(1, static_cast<int>(std::lround(options.scale * usual_count(name))));
+        const int count = options.count > 0 ? options.count : usual;
         for (int i = 0; i < count; ++i) {
-            plan.push_back({name, (options.evaluation ? first_evaluation_seed : 1) + static_cast<std::uint64_t>(i)});
+            plan.push_back({name, first + static_cast<std::uint64_t>(i)});
         }
     }
     return plan;
@@ -149,7 +147,7 @@ int main(int argc, char** argv) {
     CLI::App app("blind bench of idim refine on simulated robots whose description lacks something");
     app.add_option("--idim", options.under_test.command, "the command under test")->required();
     app.add_option("--class", options.classes, "classes of cases; all of them if not given");
-    app.add_option("--seed", options.seed, "one case of each class: this one");
+    app.add_option("--seed", options.seed, "seed of the first case of each class; one case each without --count");
     app.add_option("--count", options.count, "cases of each class");
     app.add_option("--scale", options.scale, "times the usual number of cases");
     app.add_flag("--evaluation,!--development", options.evaluation,

@@ -66,6 +66,10 @@ estimate least_squares(const observation& rows, least_squares_method method);
 /// Errors of chi on the rows of `rows`, all blocks together.
 error_summary errors(const observation& rows, const Eigen::VectorXd& chi);
 
+/// Root of the mean over joints of their squared errors, each over what it was before (of the same joints, no rows of
+/// which changed): added up as they are, the joint with the largest torque would decide alone.
+double error_ratio(const error_summary& before, const error_summary& after);
+
 /// One parameter's part in a reduced model.
 struct essential_parameters {
     std::vector<int> kept;     ///< columns, in order

@@ -82,17 +82,6 @@ struct suspect {
     int changes_with;
 };
 
-/// Root of the mean over joints of their squared errors, each over what it was before: added up as they are, the joint
-/// with the largest torque would decide alone.
-double error_ratio(const error_summary& before, const error_summary& after) {
-    double parts = 0.0;
-    for (std::size_t j = 0; j < before.joints.size(); ++j) {
-        const double ratio = before.joints[j].rms > 0.0 ? after.joints[j].rms / before.joints[j].rms : 1.0;
-        parts += ratio * ratio;
-    }
-    return std::sqrt(parts / static_cast<double>(before.joints.size()));
-}
-
 class tracer {
   public:
     explicit tracer(const trace_input& input) : input_(input) {

@@ -131,16 +131,23 @@ class dependence_test {
         return share;
     }
 
-    /// Part of the residual held back that a set explains with what was fitted.
+    /// Part of the residual held back that a set explains with what was fitted. Heights of the surface that few rows
+    /// tell, or the model takes up, are kept to the size of the residual: one row more for each, of no torque.
     double explained_held_back(const signal_set& set) const {
         const hat_surface surface(fitted_, set);
         const Eigen::MatrixXd columns = surface.columns(fitted_);
-        Eigen::MatrixXd all(columns.rows(), fitted_.model.cols() + columns.cols());
-        all << fitted_.model, columns;
+        const Eigen::Index rows = columns.rows();
+        const Eigen::Index heights = columns.cols();
+        Eigen::MatrixXd all(rows + heights, fitted_.model.cols() + heights);
+        all.topRows(rows) << fitted_.model, columns;
+        all.bottomLeftCorner(heights, fitted_.model.cols()).setZero();
+        all.bottomRightCorner(heights, heights) = fitted_.weight.mean() * Eigen::MatrixXd::Identity(heights, heights);
+        Eigen::VectorXd left = Eigen::VectorXd::Zero(rows + heights);
+        left.head(rows) = fitted_.left;
         Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
         solver.setThreshold(1e-6);
         solver.compute(all);
-        const Eigen::VectorXd coefficient = solver.solve(fitted_.left);
+        const Eigen::VectorXd coefficient = solver.solve(left);
         Eigen::MatrixXd other(held_back_.left.size(), all.cols());
         other << held_back_.model, surface.columns(held_back_);
         return 1.0 - (held_back_.left - other * coefficient).squaredNorm() / held_back_.left.squaredNorm();
