@@ -454,6 +454,15 @@ TEST(Errors, OfNoTorqueAreZeroForNoResidualAndOneForAny) {
     EXPECT_EQ(errors(rows, Eigen::VectorXd::Zero(1)).relative_error, 0.0);
 }
 
+TEST(Errors, RatioWeighsJointsEachBesideWhatItWas) {
+    // The heavy joint loses a hundredth, the light one gains a half: together they lose, on the mean they gain. A joint
+    // without residual before counts as unchanged.
+    const error_summary before{0.1, {{100.0, 0.1}, {1.0, 0.1}, {0.0, 0.0}}};
+    const error_summary after{0.101, {{101.0, 0.101}, {0.5, 0.05}, {0.0, 0.0}}};
+    EXPECT_DOUBLE_EQ(error_ratio(before, after), std::sqrt((1.01 * 1.01 + 0.25 + 1.0) / 3.0));
+    EXPECT_DOUBLE_EQ(error_ratio(before, before), 1.0);
+}
+
 TEST(Errors, RefuseAChiOfTheWrongLength) {
     EXPECT_THROW(errors(test::scara_rows(), Eigen::VectorXd::Zero(7)), std::invalid_argument);
 }
